@@ -1,0 +1,70 @@
+"""``symdh eval``: the numeric pose."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+import click
+
+from symdh.cli import console, options, tables
+
+if TYPE_CHECKING:
+    from sympy import Expr, Symbol
+
+    from symdh.robot import Robot
+
+
+@click.command(
+    "eval",
+    epilog=options.examples(
+        'symdh eval scara.yaml --set theta1="30 deg" --set q3=0.1',
+        "symdh eval scara.yaml --to 2 --format json",
+    ),
+)
+@options.table_argument
+@click.option(
+    "--set",
+    "settings",
+    metavar="NAME=VALUE",
+    multiple=True,
+    help="Value of a symbol, with or without its unit; wins over the table's own. Repeatable.",
+)
+@options.frame_options
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["text", "json"]),
+    default="text",
+    show_default=True,
+    help="Aligned numbers to read, or JSON for a program.",
+)
+def evaluate(
+    table: str, settings: tuple[str, ...], start: str | None, end: str | None, form: str
+) -> None:
+    """Print the pose of one frame in another as numbers.
+
+    Symbols take their values from the table and from --set. A bare number means what the table's
+    units say.
+    """
+    from symdh.kinematics.numeric import pose
+    from symdh.render.json_form import eval_json
+    from symdh.render.terminal import render_numbers
+
+    robot = tables.read_robot(table)
+    first, last = tables.frames_between(robot, start, end)
+    matrix = pose(robot, first, last, _assignment(robot, settings))
+    show = eval_json if form == "json" else render_numbers
+    console.print_result(show(first, last, matrix))
+
+
+def _assignment(robot: Robot, settings: tuple[str, ...]) -> dict[Symbol, Expr]:
+    """Read ``name=value`` texts."""
+    from symdh.table import parse_setting
+
+    return dict(parse_setting(robot, _as_utf8(text)) for text in settings)
+
+
+def _as_utf8(argument: str) -> str:
+    """Decode an argument as UTF-8 also where the locale claims that there is nothing but ASCII."""
+    return os.fsencode(argument).decode("utf-8", errors="replace")

@@ -1,0 +1,38 @@
+"""``symdh latex``: the handout as LaTeX."""
+
+from __future__ import annotations
+
+import click
+
+from symdh.cli import files, options, tables
+
+
+@click.command(
+    epilog=options.examples(
+        "symdh latex scara.yaml -o scara.tex",
+        "symdh latex scara.yaml --fragment -o chapter/scara.tex",
+    )
+)
+@options.table_argument
+@options.file_option("standard output")
+@click.option(
+    "--fragment", is_flag=True, help="Leave out the preamble, to \\input into a document of yours."
+)
+@options.document_options
+@options.force_option
+def latex(
+    table: str,
+    output: str | None,
+    fragment: bool,
+    order: str,
+    notation: str,
+    paper: str,
+    force: bool,
+) -> None:
+    """Write the derivation, step by step, as LaTeX."""
+    from symdh.derivation import derive
+    from symdh.render.latex import render_latex
+
+    document = derive(tables.read_robot(table), order=order, naming=notation)
+    text = render_latex(document, fragment=fragment, paper=paper)
+    files.save(output or "-", text.encode(), force=force)

@@ -1,0 +1,51 @@
+"""A robot's forward kinematics as a document."""
+
+from __future__ import annotations
+
+from symdh.derivation import general, links, meaning, numbers, products, recursion, result, table
+from symdh.derivation.blocks import Document, Text
+from symdh.derivation.style import Naming, Order, Style
+from symdh.kinematics.forward import forward_kinematics
+from symdh.robot import Convention, Robot
+
+_CONVENTION = {
+    Convention.STANDARD: "Standard (distal) Denavit–Hartenberg convention",
+    Convention.MODIFIED: "Modified (proximal) Denavit–Hartenberg convention",
+}
+
+
+def derive(
+    robot: Robot, order: Order | str = Order.RIGHT, naming: Naming | str = Naming.AUTO
+) -> Document:
+    """Derive the forward kinematics of a robot, every step of it.
+
+    Parameters
+    ----------
+    robot : Robot
+    order : Order or str
+        ``"right"`` multiplies from the hand to the base, ``"left"`` from the base to the hand.
+    naming : Naming or str
+        ``"standard"`` writes 0T3 with the frame after the T, ``"craig"`` with both before it;
+        ``"auto"`` follows the table's convention.
+
+    Returns
+    -------
+    Document
+    """
+    style = Style(robot, Order(order), Naming(naming))
+    forward = forward_kinematics(robot)
+    chapters = [
+        table.chapter(style),
+        meaning.chapter(style),
+        general.chapter(style),
+        links.chapter(style, forward),
+    ]
+    if forward.pose is None:
+        chapters.append(recursion.chapter(style, forward.start, forward.end))
+    else:
+        chapters += [products.chapter(style, forward), result.chapter(style, forward)]
+    figures = numbers.chapter(style, forward)
+    if figures is not None:
+        chapters.append(figures)
+    subtitle: Text = (_CONVENTION[robot.convention],)
+    return Document(robot.title or robot.name, subtitle, tuple(chapters))

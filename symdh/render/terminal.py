@@ -1,0 +1,100 @@
+"""Results as Unicode text that fits the width of a terminal."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable
+
+from symdh.derivation import Naming, Style
+from symdh.derivation.blocks import Chapter, Display, EntryStep, EntrySteps, NamedMatrix, Paragraph
+from symdh.derivation.legend import legend
+from symdh.derivation.numbers import rounded
+from symdh.derivation.recursion import chapter as recursion_chapter
+from symdh.kinematics.forward import has_closed_form, transform
+from symdh.kinematics.frame import Frame
+from symdh.kinematics.numeric import NumericMatrix
+from symdh.notation import break_lines, joined
+from symdh.notation.nodes import Equation, PoseName
+from symdh.render.entries import named_entries
+from symdh.render.unicode_math import UnicodeWriter
+from symdh.robot import Robot
+
+_MATH = UnicodeWriter()
+_INDENT = 4
+
+
+def render_result(
+    robot: Robot, start: Frame, end: Frame, width: int = 80, naming: Naming | str = Naming.AUTO
+) -> str:
+    """Return the exact pose of `end` in `start` as text.
+
+    As a matrix where that fits into `width` columns, else entry by entry; where the closed form
+    would be too large, the recursion that gives it.
+
+    Raises
+    ------
+    UnsupportedError
+        When the robot has no such frame.
+    """
+    style = Style(robot, naming=Naming(naming))
+    if not has_closed_form(robot, start, end):
+        return _chapter(recursion_chapter(style, start, end), width)
+    matrix = style.notation.matrix(transform(robot, start, end))
+    text = _named_matrix(NamedMatrix((style.pose_name(start, end),), matrix), width)
+    meanings = legend(style, [matrix])
+    return text if meanings is None else f"{text}\n\n{_paragraph(meanings, width)}"
+
+
+def render_numbers(start: Frame, end: Frame, numbers: NumericMatrix) -> str:
+    """Return a numeric pose as text."""
+    name = PoseName(str(start), str(end), craig=False)
+    return _named_matrix(NamedMatrix((name,), rounded(numbers)), width=80)
+
+
+def _named_matrix(block: NamedMatrix, width: int) -> str:
+    name = _MATH.text(Equation(block.names))
+    lines = _MATH.matrix_lines(block.matrix)
+    gap = " " * (len(name) + 3)
+    if len(gap) + len(lines[0]) <= width:
+        heads = [f"{name} = " if row == (len(lines) - 1) // 2 else gap for row in range(len(lines))]
+        return "\n".join(head + line for head, line in zip(heads, lines, strict=True))
+    if len(lines[0]) + 2 <= width:
+        return "\n".join([f"{name} =", *(f"  {line}" for line in lines)])
+    return "\n".join([f"{name}:", *_entries(named_entries(block.matrix), width - 2, "  ")])
+
+
+def _entries(steps: Iterable[EntryStep], width: int, lead: str = "") -> list[str]:
+    lines: list[str] = []
+    for step in steps:
+        name = _MATH.text(step.name)
+        room = max(width - len(name) - 3, 20)
+        broken = break_lines(_MATH.pieces(step.forms[-1]), room, _INDENT)
+        lines.append(f"{lead}{name} = {joined(broken[0])}")
+        gap = " " * (len(name) + 3 + _INDENT)
+        lines += [lead + gap + joined(line).lstrip() for line in broken[1:]]
+    return lines
+
+
+def _chapter(chapter: Chapter, width: int) -> str:
+    parts = []
+    for block in chapter.blocks:
+        match block:
+            case Paragraph():
+                parts.append(_paragraph(block, width))
+            case Display(formula=formula):
+                parts.append(f"  {_MATH.text(formula)}")
+            case EntrySteps(entries=steps):
+                parts.append("\n".join(_entries(steps, width - 2, "  ")))
+            case _:
+                raise TypeError(f"no terminal text for {type(block).__name__}")
+    return "\n\n".join(parts)
+
+
+def _paragraph(block: Paragraph, width: int) -> str:
+    # Formulas are kept whole: their spaces come back after the text is wrapped.
+    text = "".join(
+        part if isinstance(part, str) else _MATH.text(part).replace(" ", "\u00a0")
+        for part in block.content
+    )
+    wrapped = textwrap.fill(text, max(width, 20), break_long_words=False, break_on_hyphens=False)
+    return wrapped.replace("\u00a0", " ")

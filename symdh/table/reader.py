@@ -1,0 +1,147 @@
+"""From the text of a table to a robot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from symdh.errors import Diagnostic
+from symdh.robot import LengthUnit, Robot, Units
+from symdh.table.cells import CellReader
+from symdh.table.joints import DIMENSIONS, read_joints
+from symdh.table.labels import default_name, read_name, read_title
+from symdh.table.nodes import MappingNode, Node, parse_nodes
+from symdh.table.numbers import read_limits, read_values
+from symdh.table.report import Report
+from symdh.table.rows import Row, rows_of_columns, rows_of_joints
+from symdh.table.settings import read_convention, read_units
+from symdh.table.source import START, Source
+from symdh.table.suggest import brief, did_you_mean
+from symdh.table.uses import dimensions_of_symbols
+from symdh.table.words import PlacedMotion, read_word
+
+KEYS = (
+    "name",
+    "title",
+    "convention",
+    "units",
+    "joints",
+    "columns",
+    "rows",
+    "base",
+    "tool",
+    "values",
+    "limits",
+    "notes",
+)
+_KEY_ALIASES = {
+    "links": "joints",
+    "table": "joints",
+    "dh": "joints",
+    "parameters": "values",
+    "description": "notes",
+    "comment": "notes",
+}
+EXTENSION = "x-"
+"""Keys that start so belong to other tools and are left alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedTable:
+    """A table that could be read.
+
+    Attributes
+    ----------
+    robot : Robot
+    warnings : tuple of Diagnostic
+        In the order of the file.
+    """
+
+    robot: Robot
+    warnings: tuple[Diagnostic, ...]
+
+
+def read_table(source: Source) -> LoadedTable:
+    """Read a table.
+
+    Raises
+    ------
+    TableError
+        With every error and warning, in the order of the file.
+    """
+    report = Report(source)
+    sections = _sections(parse_nodes(source), report)
+    convention = read_convention(sections.get("convention"), report)
+    name = read_name(sections["name"], report) if "name" in sections else None
+    title = read_title(sections["title"], report) if "title" in sections else None
+    reader = CellReader(report, read_units(sections.get("units"), report))
+
+    base = _read_motions("base", sections, reader)
+    tool = _read_motions("tool", sections, reader)
+    outer = [placed.cell for placed in (*base, *tool)]
+    rows = read_joints(_read_rows(sections, report), outer, reader)
+
+    cells = [*outer, *(cell for row in rows for cell in row.cells.values())]
+    uses = dimensions_of_symbols((cell.value, cell.dimension) for cell in cells)
+    symbols = {symbol for cell in cells for symbol in cell.names}
+    values = read_values(sections.get("values"), symbols, uses, reader)
+    variables = {row.variable: DIMENSIONS[row.home] for row in rows if row.variable and row.home}
+    limits = read_limits(sections.get("limits"), variables, reader)
+
+    reader.warn_of_bare_lengths()
+    report.raise_errors()
+    robot = Robot(
+        name=name or default_name(source.filename),
+        convention=convention,
+        joints=tuple(row.joint() for row in rows),
+        base=tuple(placed.motion for placed in base),
+        tool=tuple(placed.motion for placed in tool),
+        values=values,
+        limits=limits,
+        title=title,
+        units=_units_of(reader),
+    )
+    return LoadedTable(robot, report.diagnostics())
+
+
+def _sections(root: MappingNode, report: Report) -> dict[str, Node]:
+    """Return the nodes of the top level by their keys."""
+    sections = {}
+    for key, node in root.items:
+        if key.text in KEYS:
+            sections[key.text] = node
+        elif not key.text.startswith(EXTENSION):
+            hint = did_you_mean(key.text, KEYS, _KEY_ALIASES)
+            report.error(key.place(), f"key {brief(key.text)} unknown{hint}")
+    return sections
+
+
+def _read_rows(sections: Mapping[str, Node], report: Report) -> list[Row]:
+    """Read the rows in whichever spelling the table has them."""
+    joints, columns, rows = (sections.get(key) for key in ("joints", "columns", "rows"))
+    if joints is not None:
+        for other in (columns, rows):
+            if other is not None:
+                report.error(other.place(), "give the rows once: as joints, or as columns and rows")
+        return rows_of_joints(joints, report)
+    if columns is not None and rows is not None:
+        return rows_of_columns(columns, rows, report)
+    if columns is None and rows is None:
+        report.error(START, "joints is missing: the list of rows (or columns and rows)")
+    elif rows is None and columns is not None:
+        report.error(columns.place(), "columns without rows")
+    elif rows is not None:
+        report.error(rows.place(), "rows without columns: say `columns: [alpha, a, d, theta]`")
+    return []
+
+
+def _read_motions(key: str, sections: Mapping[str, Node], reader: CellReader) -> list[PlacedMotion]:
+    node = sections.get(key)
+    return [] if node is None else read_word(key, node, reader)
+
+
+def _units_of(reader: CellReader) -> Units:
+    """Return the table's units; lengths that carry their own make metre the unit of the rest."""
+    if reader.units.length is None and reader.uses_length_unit:
+        return replace(reader.units, length=LengthUnit.METRE)
+    return reader.units
