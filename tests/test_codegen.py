@@ -38,7 +38,6 @@ from sympy import (
     sqrt,
     tan,
 )
-from tools import require_tool
 
 from symdh import resources
 from symdh.codegen import TARGETS, GeneratedFile, generate
@@ -62,6 +61,7 @@ from symdh.robot import (
     Robot,
     Units,
 )
+from tools import require_tool
 
 STANDARD, MODIFIED = Convention.STANDARD, Convention.MODIFIED
 DEGREE = pi / 180
@@ -390,7 +390,7 @@ def test_every_compiler_accepts_every_robot(
 ) -> None:
     program = require_tool(compiler)
     sources = []
-    for robot in [*ROBOTS, *(named(name) for name in HOSTILE)]:
+    for robot in [*ROBOTS, *(named(name) for name in HOSTILE.split())]:
         folder = tmp_path / f"{len(sources)}"
         folder.mkdir()
         sources.append(str(write_all(generate(robot, "c"), folder)[1]))
@@ -409,13 +409,13 @@ def write_all(files: Sequence[GeneratedFile], folder: Path) -> list[Path]:
 
 # ---------------------------------------------------------------------------------------- names
 
-HOSTILE = (
-    "E N Q I S O q p T t0 t1 s1 c1 s12 c12 q12 r11 px fk np npt sin cos atan2 fabs sqrt pow y0 j1 "
-    "gamma log errno EDOM M_PI PI NAN INFINITY NULL linux unix min max near assert isnan class "
-    "lambda double int signed and or not xor bool true false None True is in def print abs sum "
-    "float ValueError N_JOINTS x X a_ a theta template this operator restrict inline self pi2 "
-    "hostile_fk hostile_params numpy"
-).split()
+HOSTILE = """
+    E N Q I S O q p T t0 t1 s1 c1 s12 c12 q12 r11 px fk np npt sin cos atan2 fabs sqrt pow y0 j1
+    gamma log errno EDOM M_PI PI NAN INFINITY NULL linux unix min max near assert isnan class
+    lambda double int signed and or not xor bool true false None True is in def print abs sum
+    float ValueError N_JOINTS x X a_ a theta template this operator restrict inline self pi2
+    hostile_fk hostile_params numpy
+"""
 
 
 def named(name: str) -> Robot:
@@ -469,13 +469,19 @@ def test_a_renamed_symbol_is_named_in_the_comments() -> None:
 
 def test_scope_prefers_who_may_keep_the_name() -> None:
     scope = Scope(lambda name: name == "class")
-    first, second, third = symbols("class class_ ok")
-    assert scope.take_symbols([first, second, third]) == {
-        first: "class_2",
-        second: "class_",
-        third: "ok",
+    first, second, third, fourth = symbols("class class_ ok! ok")
+    assert scope.take_symbols([first, second, third, fourth]) == {
+        first: "class_",
+        second: "class_2_",
+        third: "ok_",
+        fourth: "ok",
     }
-    assert [scope.take("ok"), scope.take("ok"), scope.take("ok")] == ["ok_", "ok_2", "ok_3"]
+    assert [scope.take("ok"), scope.take("ok"), scope.take("t")] == ["ok_2_", "ok_3_", "t"]
+
+
+def test_scope_finds_a_name_where_whole_families_are_reserved() -> None:
+    scope = Scope(lambda name: name.startswith("E"))
+    assert [scope.take("EDOM"), scope.take("EDOM")] == ["EDOM_", "EDOM_2_"]
 
 
 def test_scope_tells_symbols_with_unusual_letters_apart() -> None:
@@ -561,7 +567,9 @@ def test_python_tells_joints_and_limits(tmp_path: Path) -> None:
     assert module.N_JOINTS == 4
     assert module.JOINT_NAMES == ("q1", "q2", "q3", "q4")
     limit = math.radians(170)
-    assert module.JOINT_LIMITS == (pytest.approx((-limit, limit)), None, (0.0, 0.15), None)
+    first, *others = module.JOINT_LIMITS
+    assert first == pytest.approx((-limit, limit))
+    assert others == [None, (0.0, 0.15), None]
 
 
 def test_python_values_of_joint_variables_are_no_defaults(tmp_path: Path) -> None:
@@ -640,9 +648,8 @@ def test_c_example_of_the_header_compiles(robot: Robot, tmp_path: Path) -> None:
     assert example is not None
     body = example[1].replace(" *    ", "")
     program = tmp_path / "main.c"
-    program.write_text(
-        f'#include "{header.name}"\nint main(void)\n{{\n{body}    return T[15] == 1.0 ? 0 : 1;\n}}\n'
-    )
+    end = "    return T[15] == 1.0 ? 0 : 1;\n"
+    program.write_text(f'#include "{header.name}"\nint main(void)\n{{\n{body}{end}}}\n')
     binary = str(tmp_path / "example")
     command = [gcc, "-std=c99", "-Wall", "-Wextra", "-Werror", str(program), str(source)]
     subprocess.run([*command, "-o", binary, "-lm"], check=True)

@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 from generated import compile_generated, import_generated
 from oracle import FIFTY_DIGITS, Arm, read_arm_file, rigid_inverse
-from symdh.render.latex import render_latex
 from sympy import Expr, Float, Rational, Symbol, cos, count_ops, eye, sin
 
 import symdh
 from symdh.codegen import generate
 from symdh.derivation import derive
+from symdh.render.latex import render_latex
 
 TABLES = sorted((Path(__file__).parent / "data" / "tables").glob("*.yaml"))
 POSES = 1000

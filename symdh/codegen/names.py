@@ -77,7 +77,8 @@ class Scope:
     Parameters
     ----------
     is_reserved : callable
-        Says whether the language, or the program itself, has a name already.
+        Says whether the language, or the program itself, has a name already. Names that end with
+        an underscore are the scope's own to fall back on; it does not ask about them.
     """
 
     def __init__(self, is_reserved: Callable[[str], bool]) -> None:
@@ -85,11 +86,11 @@ class Scope:
         self._taken: set[str] = set()
 
     def take(self, wanted: str) -> str:
-        """Return the identifier that is wanted; ``NAME_``, ``NAME_2`` .. when it is not free."""
+        """Return the identifier that is wanted; ``NAME_``, ``NAME_2_`` .. when it is not free."""
         wanted = identifier(wanted)
         name, number = wanted, 1
         while not self._is_free(name):
-            name = f"{wanted}_" if number == 1 else f"{wanted}_{number}"
+            name = f"{wanted}_" if number == 1 else f"{wanted}_{number}_"
             number += 1
         self._taken.add(name)
         return name
@@ -105,4 +106,5 @@ class Scope:
         return name == identifier(name) and self._is_free(name)
 
     def _is_free(self, name: str) -> bool:
-        return name not in self._taken and not self._is_reserved(name)
+        reserved = not name.endswith("_") and self._is_reserved(name)
+        return name not in self._taken and not reserved

@@ -14,9 +14,12 @@ class Mark(Protocol):
     """PyYAML's position, counted from 0."""
 
     @property
-    def line(self) -> int: ...
+    def line(self) -> int:
+        """Line, from 0."""
+
     @property
-    def column(self) -> int: ...
+    def column(self) -> int:
+        """Column, from 0."""
 
 
 def place_of(mark: Mark | None) -> Place:
