@@ -18,7 +18,7 @@ def examples(*commands: str) -> str:
 
 def table_argument(function: F) -> F:
     """Add the argument TABLE."""
-    return click.argument("table", type=click.Path(allow_dash=True))(function)
+    return click.argument("table", type=click.Path(allow_dash=True, readable=False))(function)
 
 
 def frame_options(function: F) -> F:

@@ -53,7 +53,7 @@ class Lowering:
     Attributes
     ----------
     names : dict of Node to str
-        Readable names for the nodes of angles, their cosines and sines: q23, c23, s23.
+        Readable names for the nodes of angles, their cosines and sines: angle23, c23, s23.
     """
 
     def __init__(self, graph: Graph, rows: Mapping[Symbol, int]) -> None:
@@ -115,8 +115,8 @@ class Lowering:
         cosine = self.graph.call(Op.COS, argument)
         sine = self.graph.call(Op.SIN, argument)
         label = angle_label(terms, self._rows)
-        for letter, node in (("q", argument), ("c", cosine), ("s", sine)):
-            self.names.setdefault(node, letter + label)
+        for prefix, node in (("angle", argument), ("c", cosine), ("s", sine)):
+            self.names.setdefault(node, prefix + label)
         return cosine, self.graph.neg(sine) if negative else sine
 
     def _sum(self, terms: Iterable[Expr]) -> Node:

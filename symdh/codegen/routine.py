@@ -13,7 +13,7 @@ from symdh.codegen.graph import LEAVES, Node, Op
 _UNNAMED = LEAVES | {Op.NEG}
 
 #: Operations that one line of code may hold before a part of it gets a line of its own.
-_LINE = 6
+_LINE = 5
 
 
 @dataclass(frozen=True, slots=True)

@@ -78,12 +78,12 @@ def _of_word(text: ScalarNode, report: Report) -> JointType | None:
 
 
 def _of_symbols(cells: Mapping[str, Cell], variable: Symbol | None) -> JointType | None:
-    if not all(home in cells for home in HOMES.values()):
-        return None
     for kind, home in HOMES.items():
-        if variable in cells[home].names:
+        if home in cells and variable in cells[home].names:
             return kind
     for kind, home in HOMES.items():
+        if home not in cells:
+            return None
         if cells[home].names:
             return kind
     return JointType.FIXED

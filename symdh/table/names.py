@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from symdh.table.units import UNIT_NAMES
+from symdh.table.units import ANGLE_UNITS
 
 MAX_NAME = 40
 
@@ -47,7 +47,7 @@ def why_reserved(name: str) -> str | None:
         return f"name has {len(name)} characters, over {MAX_NAME}"
     if name in FUNCTION_NAMES:
         return f"a function needs parentheses: {name}(...)"
-    if name in UNIT_NAMES:
+    if name in ANGLE_UNITS:
         return f"{name} is a unit; write it after a number, or rename the symbol"
     if name.lower() in NOT_NUMBERS:
         return f"{name} is a reserved name and not a number"

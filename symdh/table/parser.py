@@ -146,7 +146,7 @@ class _Parser:
     def refuse_unit_of_divisor(self, divisor: Token, start: int) -> None:
         """Refuse ``1/2 deg``, which reads as ``(1/2) deg`` and as ``1/(2 deg)``."""
         last = self.tokens[self.index - 1]
-        if last.text not in UNIT_NAMES:
+        if last.text not in UNIT_NAMES or last is divisor:
             return
         dividend = self.text[start : divisor.offset].strip()
         number = self.text[divisor.offset : last.offset].strip()

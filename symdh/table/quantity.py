@@ -27,7 +27,7 @@ from symdh.table.units import (
 )
 
 MAX_BITS = 256
-MAX_EXPONENT = 16
+MAX_EXPONENT = 32
 MAX_ROOT = 8
 
 ZERO = Integer(0)

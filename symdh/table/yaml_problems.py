@@ -53,6 +53,9 @@ _PLAIN_WORDS = (
         r"\\\1 is no escape; use single quotes around a text with a backslash",
     ),
     (r"expected alphabetic or numeric character", "a text cannot start with * or &; quote it"),
+    (r"line break, but found|chomping", "a text cannot start with | or >; put it in quotes"),
+    (r"mapping keys are not allowed", "a text cannot start with ?; put it in quotes"),
+    (r"expected URI", "a tag is not allowed; quote a text with !"),
     (r"expected '<document start>'", "text before or after the mapping of the table"),
     (r"but found another document", "more than one document; a file holds one table"),
 )

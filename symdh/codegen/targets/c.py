@@ -68,12 +68,13 @@ def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
     known = {s: robot.values[s] for s in robot.parameters if s in robot.values}
     free = [parameter for parameter in robot.parameters if parameter not in known]
     # Fields only have to keep clear of keywords and macros; locals hide functions and arguments.
-    fields = Scope(_is_taken).take_symbols(free)
-    scope = Scope(_is_taken_locally)
+    stem = file_stem(robot.name)
+    own = {f"{stem}_{name}" for name in ("fk", "params", "N_JOINTS")}
+    fields = Scope(lambda name: name in own or _is_taken(name)).take_symbols(free)
+    scope = Scope(lambda name: name in own or _is_taken_locally(name))
     symbols = scope.take_symbols([*free, *robot.variables])
     listing = write_listing(forward_routine(robot, known), _FUNCTIONS, symbols, scope)
     facts = facts_of(robot)
-    stem = file_stem(robot.name)
     context = {
         "stem": stem,
         "facts": facts,

@@ -1,0 +1,51 @@
+"""Rotations: composing them, and the ways of describing one that is there."""
+
+from __future__ import annotations
+
+from symdh.kinematics.rotation.axis_angle import AxisAngle, axis_angle
+from symdh.kinematics.rotation.composing import About, Composition, Step, Turned, compose
+from symdh.kinematics.rotation.euler import (
+    SEQUENCES,
+    Atan2,
+    EulerAngles,
+    EulerSequence,
+    euler_angles,
+    euler_formulas,
+    named_sequence,
+)
+from symdh.kinematics.rotation.matrix import (
+    TOLERANCE,
+    Rotation,
+    check_family,
+    nearest_rotation,
+)
+from symdh.kinematics.rotation.quaternion import Quaternion, quaternion
+from symdh.kinematics.rotation.rates import inverse_rates, rates, rates_vanish
+from symdh.kinematics.rotation.reading import read_off
+
+__all__ = [
+    "SEQUENCES",
+    "TOLERANCE",
+    "About",
+    "Atan2",
+    "AxisAngle",
+    "Composition",
+    "EulerAngles",
+    "EulerSequence",
+    "Quaternion",
+    "Rotation",
+    "Step",
+    "Turned",
+    "axis_angle",
+    "check_family",
+    "compose",
+    "euler_angles",
+    "euler_formulas",
+    "inverse_rates",
+    "named_sequence",
+    "nearest_rotation",
+    "quaternion",
+    "rates",
+    "rates_vanish",
+    "read_off",
+]
