@@ -3,10 +3,20 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from symdh.derivation import Naming, Style
-from symdh.derivation.blocks import Chapter, Display, EntryStep, EntrySteps, NamedMatrix, Paragraph
+from symdh.derivation.blocks import (
+    Chapter,
+    Display,
+    Entries,
+    EntryStep,
+    EntrySteps,
+    MatrixRow,
+    NamedMatrix,
+    Paragraph,
+    ParameterTable,
+)
 from symdh.derivation.legend import legend
 from symdh.derivation.numbers import rounded
 from symdh.derivation.recursion import chapter as recursion_chapter
@@ -51,6 +61,14 @@ def render_numbers(start: Frame, end: Frame, numbers: NumericMatrix) -> str:
     return _named_matrix(NamedMatrix((name,), rounded(numbers)), width=80)
 
 
+def render_chapters(chapters: Iterable[Chapter], width: int = 80) -> str:
+    """Return chapters as text, each under its title."""
+    return "\n\n".join(
+        f"{chapter.title}\n{'─' * len(chapter.title)}\n\n{_chapter(chapter, width)}"
+        for chapter in chapters
+    )
+
+
 def _named_matrix(block: NamedMatrix, width: int) -> str:
     name = _MATH.text(Equation(block.names))
     lines = _MATH.matrix_lines(block.matrix)
@@ -85,9 +103,31 @@ def _chapter(chapter: Chapter, width: int) -> str:
                 parts.append(f"  {_MATH.text(formula)}")
             case EntrySteps(entries=steps):
                 parts.append("\n".join(_entries(steps, width - 2, "  ")))
+            case Entries(groups=groups):
+                parts += ["\n".join(_entries(steps, width - 2, "  ")) for steps in groups]
+            case NamedMatrix():
+                parts.append(_named_matrix(block, width))
+            case MatrixRow(matrices=matrices):
+                parts += [_named_matrix(matrix, width) for matrix in matrices]
+            case ParameterTable():
+                parts.append(_table(block, width))
             case _:
                 raise TypeError(f"no terminal text for {type(block).__name__}")
     return "\n\n".join(parts)
+
+
+def _table(block: ParameterTable, width: int) -> str:
+    rows = [[_MATH.text(node) for node in row] for row in (block.header, *block.rows)]
+    widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
+    head, *body = (_row(row, widths) for row in rows)
+    notes = [_paragraph(Paragraph(note), width) for note in block.notes]
+    return "\n".join([head, "  " + "─" * (len(head) - 2), *body, *notes])
+
+
+def _row(cells: Sequence[str], widths: Sequence[int]) -> str:
+    # The first column names the row; the others are numbers.
+    first, *rest = zip(cells, widths, strict=True)
+    return "   ".join([f"  {first[0]:{first[1]}}", *(f"{cell:>{size}}" for cell, size in rest)])
 
 
 def _paragraph(block: Paragraph, width: int) -> str:

@@ -7,7 +7,6 @@ and products are exact and cheap. The relation ``s^2 + c^2 = 1`` is applied afte
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from typing import Any
 
@@ -16,19 +15,13 @@ from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
-from symdh.motion import Word, fuse_to_turn
+from symdh.kinematics.chain import link_word
+from symdh.motion import Word
 from symdh.robot import Axis, JointType, Motion, MotionKind, Robot
 
 #: An element of a sympy ring; sympy has no public types to say so.
 Element = Any
 Vector = tuple[Element, Element, Element]
-
-
-@dataclass(frozen=True, slots=True)
-class _Angle:
-    """A sum of angles of the ring: which of them, with which whole-number signs."""
-
-    terms: tuple[tuple[Expr, int], ...]
 
 
 class TrigRing:
@@ -150,18 +143,12 @@ class TrigRing:
         return self.reduced(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
 
     def _carried(self, word: Word, vector: Vector, *, translate: bool) -> Vector:
-        motions, turn = fuse_to_turn(
-            m for m in word if translate or m.kind is MotionKind.ROTATION
-        )
-        turned = [self.ring.zero] * 3
-        for axis in Axis:
-            target, sign = turn.image(axis)
-            turned[target] = sign * vector[axis]
-        for motion in reversed(motions):
-            if motion.kind is MotionKind.TRANSLATION:
-                turned[motion.axis] = turned[motion.axis] + self.read(motion.amount)
-            else:
+        turned = list(vector)
+        for motion in reversed(word):
+            if motion.kind is MotionKind.ROTATION:
                 self._rotate(turned, motion)
+            elif translate:
+                turned[motion.axis] = turned[motion.axis] + self.read(motion.amount)
         return turned[0], turned[1], turned[2]
 
     def _rotate(self, vector: list[Element], motion: Motion) -> None:
@@ -206,8 +193,6 @@ class TrigRing:
 
 
 def _motions(robot: Robot) -> Iterable[Motion]:
-    from symdh.kinematics.chain import link_word
-
     yield from robot.base
     for i in range(1, robot.n + 1):
         yield from link_word(robot, i)
@@ -225,7 +210,7 @@ def _without_sign(angle: Expr) -> tuple[Expr, int]:
 
 def _is_opaque_angle(angle: Expr) -> bool:
     """Say whether the cosine of a constant angle is no plain number."""
-    return isinstance(cos(angle), cos) or isinstance(cos(angle), sin) or bool(cos(angle).has(cos, sin))
+    return bool(cos(angle).has(cos, sin))
 
 
 def _is_power(expression: Expr) -> bool:

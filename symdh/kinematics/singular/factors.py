@@ -1,0 +1,239 @@
+"""Factors of trigonometric polynomials, found where factors are unique: in half angles.
+
+With ``s^2 + c^2 = 1`` one product can be written in many ways, and a factor need not divide what
+is written. With t = tan(theta/2), ``c = (1 - t^2)/(1 + t^2)`` and ``s = 2t/(1 + t^2)``, numerators
+are ordinary polynomials: their factors are found by greatest common divisors and read back.
+A factor may then be half of one: t and the point at infinity together make ``s_i``, and
+``1 - t`` and ``1 + t`` make ``c_i``.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import reduce
+
+from sympy import Dummy
+from sympy.polys.domains import QQ
+from sympy.polys.orderings import lex
+from sympy.polys.rings import PolyRing
+
+from symdh.kinematics.singular.trig_ring import Element, TrigRing
+
+#: Terms of a polynomial past which it is no longer taken apart; it then stays one factor.
+MAX_TERMS = 600
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """A product in half angles.
+
+    Attributes
+    ----------
+    finite : Counter
+        Primitive polynomials in t_k and the ring's other generators, with their multiplicities.
+    infinite : Counter
+        How often the product vanishes at theta_k = 180 deg by way of t_k = infinity.
+    """
+
+    finite: Counter[Element]
+    infinite: Counter[int]
+
+    def __and__(self, other: Pieces) -> Pieces:
+        return Pieces(self.finite & other.finite, self.infinite & other.infinite)
+
+    def __sub__(self, other: Pieces) -> Pieces:
+        return Pieces(self.finite - other.finite, self.infinite - other.infinite)
+
+    def __add__(self, other: Pieces) -> Pieces:
+        return Pieces(self.finite + other.finite, self.infinite + other.infinite)
+
+
+class HalfAngles:
+    """The ring of t_k = tan(angle_k / 2), slides and lengths that belongs to a `TrigRing`."""
+
+    def __init__(self, trig: TrigRing) -> None:
+        self.trig = trig
+        self.count = len(trig.angles)
+        names = [Dummy("t") for _ in trig.angles] + [Dummy("x") for _ in trig.others]
+        self.ring = PolyRing(names or [Dummy("x")], QQ, lex)
+
+    def pieces(self, factors: Iterable[Element]) -> Pieces:
+        """Take a product of elements of the trigonometric ring apart; none of them is zero."""
+        whole = Pieces(Counter(), Counter())
+        for factor in factors:
+            whole = whole + self._pieces(factor)
+        return whole
+
+    def factors(self, pieces: Pieces) -> list[tuple[Element, int]]:
+        """Return factors of the trigonometric ring, primitive, with their powers."""
+        finite, infinite = Counter(pieces.finite), Counter(pieces.infinite)
+        found: Counter[Element] = Counter()
+        for piece, power in sorted(finite.items(), key=_sorting):
+            if not any(self._odd(piece)):
+                found[self._read_back(piece, {})] += power
+                del finite[piece]
+        for k in sorted(infinite):
+            found += self._with_infinity(k, infinite[k], finite)
+        for piece in sorted(finite, key=lambda p: _sorting((p, 1))):
+            while finite[piece] > 0:
+                found[self._with_partner(piece, finite)] += 1
+        return [(factor, power) for factor, power in found.items() if not factor.is_ground]
+
+    def _pieces(self, factor: Element) -> Pieces:
+        numerator, degrees = self._numerator(factor)
+        infinite = Counter(
+            {
+                k: 2 * degree - _degree(numerator, k)
+                for k, degree in enumerate(degrees)
+                if 2 * degree > _degree(numerator, k)
+            }
+        )
+        return Pieces(Counter(self._split(numerator.primitive()[1])), infinite)
+
+    def _numerator(self, factor: Element) -> tuple[Element, list[int]]:
+        """Return the numerator in half angles, and how often 1 + t_k^2 stands below it."""
+        gens, n = self.ring.gens, self.count
+        degrees = [
+            max(powers[2 * k] + powers[2 * k + 1] for powers in factor) for k in range(n)
+        ]
+        total = self.ring.zero
+        for powers, coefficient in factor.terms():
+            rest = {(0,) * n + tuple(powers[2 * n :]): coefficient}
+            term = self.ring.from_dict(rest) if self.trig.others else self.ring(coefficient)
+            for k in range(n):
+                c, s = powers[2 * k], powers[2 * k + 1]
+                if degrees[k]:
+                    square = gens[k] ** 2
+                    filler = (1 + square) ** (degrees[k] - c - s)
+                    term = term * (1 - square) ** c * (2 * gens[k]) ** s * filler
+            total = total + term
+        for k in range(n):
+            while degrees[k]:
+                quotient, rest = divmod(total, 1 + gens[k] ** 2)
+                if rest:
+                    break
+                total, degrees[k] = quotient, degrees[k] - 1
+        return total, degrees
+
+    def _split(self, polynomial: Element) -> Iterator[Element]:
+        """Yield the factors of a primitive polynomial that are not constant."""
+        if polynomial.is_ground:
+            return
+        used = [k for k in range(self.ring.ngens) if _degree(polynomial, k)]
+        if len(polynomial) > MAX_TERMS:
+            yield _normal(polynomial)
+            return
+        for k in used:
+            content = _content(polynomial, k)
+            if not content.is_ground:
+                yield from self._split(content)
+                yield from self._split(polynomial.exquo(content))
+                return
+        # Linear in something, and without a factor that is free of it: it cannot be a product.
+        if any(_degree(polynomial, k) == 1 for k in used):
+            yield _normal(polynomial)
+            return
+        for factor, power in polynomial.factor_list()[1]:
+            yield from [_normal(factor)] * power
+
+    def _odd(self, piece: Element) -> list[int]:
+        return [k for k in range(self.count) if _degree(piece, k) % 2]
+
+    def _with_infinity(self, k: int, times: int, finite: Counter[Element]) -> Counter[Element]:
+        """Pair t_k with infinity to s_k; what is left over vanishes at 180 degrees alone."""
+        found: Counter[Element] = Counter()
+        zero = self.ring.gens[k]
+        paired = min(times, finite[zero])
+        finite[zero] -= paired
+        sine, cosine = self.trig.ring.gens[2 * k + 1], self.trig.ring.gens[2 * k]
+        found[sine] += paired
+        found[1 + cosine] += (times - paired) // 2
+        if (times - paired) % 2:
+            partner = next(
+                p for p in sorted(finite, key=lambda p: _sorting((p, 1)))
+                if finite[p] > 0 and self._odd(p) == [k]
+            )
+            finite[partner] -= 1
+            found[self._read_back(partner, {k: 1})] += 1
+        return +found
+
+    def _with_partner(self, piece: Element, finite: Counter[Element]) -> Element:
+        """Return the factor that an odd piece makes with others, its half-turn image first."""
+        finite[piece] -= 1
+        product = piece
+        while odd := self._odd(product):
+            image = self._half_turned(product, odd[0])
+            partner = image if finite[image] > 0 else self._any_partner(odd, finite)
+            finite[partner] -= 1
+            product = product * partner
+        return self._read_back(product, {})
+
+    def _any_partner(self, odd: list[int], finite: Counter[Element]) -> Element:
+        left = [p for p in sorted(finite, key=lambda p: _sorting((p, 1))) if finite[p] > 0]
+        alike = [p for p in left if self._odd(p) == odd]
+        sharing = [p for p in left if set(self._odd(p)) & set(odd)]
+        return (alike or sharing)[0]
+
+    def _half_turned(self, piece: Element, k: int) -> Element:
+        """Return what a piece becomes when angle k grows by 180 degrees: t_k is now -1/t_k."""
+        degree = _degree(piece, k)
+        turned = self.ring.from_dict(
+            {
+                (*powers[:k], degree - powers[k], *powers[k + 1 :]): c * (-1) ** powers[k]
+                for powers, c in piece.terms()
+            }
+        )
+        return _normal(turned)
+
+    def _read_back(self, piece: Element, infinite: dict[int, int]) -> Element:
+        """Return a piece of even degrees as a primitive trigonometric polynomial."""
+        gens, n = self.trig.ring.gens, self.count
+        halves = [(_degree(piece, k) + infinite.get(k, 0)) // 2 for k in range(n)]
+        total = self.trig.ring.zero
+        for powers, coefficient in piece.terms():
+            term = self.trig.ring.from_dict({(0,) * (2 * n) + tuple(powers[n:]): coefficient})
+            for k in range(n):
+                if halves[k]:
+                    term = term * self._over_squares(gens[2 * k], gens[2 * k + 1], powers[k], halves[k])
+            total = total + term
+        return _normal(self.trig.reduced(total).primitive()[1])
+
+    def _over_squares(self, c: Element, s: Element, power: int, half: int) -> Element:
+        """Return ``t^power / (1 + t^2)^half`` in cosine and sine, up to a factor 2^half."""
+        sines = min(power, 2 * half - power)
+        above = (power - sines) // 2
+        return s**sines * (1 - c) ** above * (1 + c) ** (half - sines - above)
+
+
+def _degree(element: Element, k: int) -> int:
+    return max((powers[k] for powers in element), default=0)
+
+
+def _content(polynomial: Element, k: int) -> Element:
+    """Return the greatest common divisor of the coefficients of the powers of generator k."""
+    by_power: dict[int, dict[tuple[int, ...], object]] = {}
+    for powers, coefficient in polynomial.terms():
+        rest = (*powers[:k], 0, *powers[k + 1 :])
+        by_power.setdefault(powers[k], {})[rest] = coefficient
+    ring = polynomial.ring
+    coefficients = sorted((ring.from_dict(part) for part in by_power.values()), key=len)
+
+    def divisor(x: Element, y: Element) -> Element:
+        return x if x.is_ground else x.gcd(y)
+
+    return _normal(reduce(divisor, coefficients))
+
+
+def _normal(element: Element) -> Element:
+    """Return an element with whole coefficients without a common divisor, the first positive."""
+    if not element:
+        return element
+    primitive = element.clear_denoms()[1].primitive()[1]
+    return -primitive if primitive.LC < 0 else primitive
+
+
+def _sorting(item: tuple[Element, int]) -> tuple[int, list[tuple[int, ...]], list[str]]:
+    terms = item[0].terms()
+    return len(terms), [tuple(p) for p, _ in terms], [str(c) for _, c in terms]
