@@ -19,7 +19,7 @@ from sympy import Matrix, cos, eye, pi, simplify, sin, symbols
 from sympy.core.cache import clear_cache
 
 import symdh
-from symdh.derivation import derive
+from symdh.derivation.derive import derive
 
 ROOT = Path(__file__).parent.parent
 TABLE = ROOT / "examples" / "puma560.yaml"

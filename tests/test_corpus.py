@@ -17,7 +17,7 @@ from sympy import Expr, Float, Rational, Symbol, cos, count_ops, eye, sin
 
 import symdh
 from symdh.codegen import generate
-from symdh.derivation import derive
+from symdh.derivation.derive import derive
 from symdh.render.latex import render_latex
 
 TABLES = sorted((Path(__file__).parent / "data" / "tables").glob("*.yaml"))

@@ -35,8 +35,8 @@ class Stopped(KeyboardInterrupt):
 
 def main() -> NoReturn:
     """Run the command that the process was started with."""
-    # sympy makes many objects and hardly a cycle: to look for some less often saves a tenth.
-    gc.set_threshold(50_000)
+    # sympy makes many objects and hardly a cycle; a run is short. Not to look saves a tenth of it.
+    gc.disable()
     console.use_utf8()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _stop)

@@ -1,7 +1,5 @@
-"""Results -> a document of typed blocks, independent of any output format."""
+"""Results -> a document of typed blocks, independent of any output format.
 
-from symdh.derivation.blocks import Document
-from symdh.derivation.derive import derive
-from symdh.derivation.style import Naming, Order, Style
-
-__all__ = ["Document", "Naming", "Order", "Style", "derive"]
+`symdh.derivation.derive.derive` makes the whole document. Nothing is imported here: a command that
+shows one transform has no use for the chapters.
+"""

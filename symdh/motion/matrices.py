@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
 
 from sympy import Expr, ImmutableMatrix, Integer, cos, sin
 
+from symdh.motion.runs import Run, cut_runs
 from symdh.motion.turn import Turn
-from symdh.motion.words import Word, fuse_to_turn, inverse, rotations
+from symdh.motion.words import fuse_to_turn, inverse, rotations
 from symdh.robot import Axis, Motion, MotionKind
 
 Vector = tuple[Expr, Expr, Expr]
@@ -66,8 +65,8 @@ def position(word: Iterable[Motion]) -> Vector:
     """Return the origin that a word carries the zero vector to."""
     motions, _ = fuse_to_turn(word)
     point: Vector = (_ZERO, _ZERO, _ZERO)
-    for run in reversed(_runs(motions)):
-        point = run.carry(point)
+    for run in reversed(cut_runs(motions)):
+        point = _carry(run, point)
     return point
 
 
@@ -81,52 +80,13 @@ def rotate(axis: Axis, angle: Expr, vector: Sequence[Expr]) -> Vector:
     return rotated[0], rotated[1], rotated[2]
 
 
-@dataclass(frozen=True, slots=True)
-class _Run:
-    """A stretch of a word whose rotations are all about one axis: parallel joints."""
-
-    axis: Axis
-    motions: Word
-
-    def carry(self, point: Vector) -> Vector:
-        """Apply the run to a point; parallel links give one term each, none of them nested."""
-        angle: Expr = _ZERO
-        reached = [_ZERO, _ZERO, _ZERO]
-        turned = list(point)
-        last = max((k for k, m in enumerate(self.motions) if _is_rotation(m)), default=-1)
-        for k, motion in enumerate(self.motions):
-            if _is_rotation(motion):
-                angle = angle + motion.amount
-            elif motion.axis is self.axis or k > last:
-                # Along the run's axis, or behind its last rotation: rides with what comes after.
-                turned[motion.axis] = motion.amount + turned[motion.axis]
-            else:
-                arm = [_ZERO, _ZERO, _ZERO]
-                arm[motion.axis] = motion.amount
-                reached = _add(reached, rotate(self.axis, angle, arm))
-        x, y, z = _add(reached, rotate(self.axis, angle, turned))
-        return x, y, z
-
-
-def _runs(motions: Word) -> list[_Run]:
-    """Cut a fused word where the axis of rotation changes."""
-    starts = [0]
-    axis: Axis | None = None
-    for k, motion in enumerate(motions):
-        if _is_rotation(motion):
-            if axis is not None and motion.axis is not axis:
-                starts.append(k)
-            axis = motion.axis
-    pieces = [motions[a:b] for a, b in pairwise([*starts, len(motions)])]
-    return [_Run(_axis_of(piece), piece) for piece in pieces if piece]
-
-
-def _axis_of(piece: Word) -> Axis:
-    return next((m.axis for m in piece if _is_rotation(m)), Axis.Z)
-
-
-def _is_rotation(motion: Motion) -> bool:
-    return motion.kind is MotionKind.ROTATION
+def _carry(run: Run, point: Vector) -> Vector:
+    """Apply a run to a point; parallel links give one term each, none of them nested."""
+    *earlier, last = run.stations
+    reached = list(rotate(run.axis, last.angle, _add(last.offset, point)))
+    for station in earlier:
+        reached = _add(reached, rotate(run.axis, station.angle, station.offset))
+    return reached[0], reached[1], reached[2]
 
 
 def _others(axis: Axis) -> tuple[int, int]:

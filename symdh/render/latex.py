@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from symdh._version import __version__
-from symdh.derivation import Naming, Style
 from symdh.derivation.blocks import (
     Block,
     Definitions,
@@ -23,6 +22,7 @@ from symdh.derivation.blocks import (
     ProductResult,
     Text,
 )
+from symdh.derivation.style import Naming, Style
 from symdh.kinematics.forward import transform
 from symdh.kinematics.frame import Frame
 from symdh.notation import break_lines, joined
@@ -188,7 +188,7 @@ class _Layout:
     def _named_matrix(self, block: NamedMatrix) -> Item:
         if not self._fits(block):
             lines = [Line(self._math.text(Equation(block.names)), ":")]
-            return Item("lines", lines + self._steps(named_entries(block.matrix)))
+            return Item("lines", lines + self._steps(named_entries(block.matrix, block.names[0])))
         whole = Equation((*block.names, block.matrix))
         if self._math.width(whole) <= LINE:
             return Item("displays", [self._math.text(whole)])

@@ -5,7 +5,6 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Sequence
 
-from symdh.derivation import Naming, Style
 from symdh.derivation.blocks import (
     Chapter,
     Display,
@@ -20,6 +19,7 @@ from symdh.derivation.blocks import (
 from symdh.derivation.legend import legend
 from symdh.derivation.numbers import rounded
 from symdh.derivation.recursion import chapter as recursion_chapter
+from symdh.derivation.style import Naming, Style
 from symdh.kinematics.forward import has_closed_form, transform
 from symdh.kinematics.frame import Frame
 from symdh.kinematics.numeric import NumericMatrix
@@ -78,7 +78,9 @@ def _named_matrix(block: NamedMatrix, width: int) -> str:
         return "\n".join(head + line for head, line in zip(heads, lines, strict=True))
     if len(lines[0]) + 2 <= width:
         return "\n".join([f"{name} =", *(f"  {line}" for line in lines)])
-    return "\n".join([f"{name}:", *_entries(named_entries(block.matrix), width - 2, "  ")])
+    return "\n".join(
+        [f"{name}:", *_entries(named_entries(block.matrix, block.names[0]), width - 2, "  ")]
+    )
 
 
 def _entries(steps: Iterable[EntryStep], width: int, lead: str = "") -> list[str]:

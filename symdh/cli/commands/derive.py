@@ -12,7 +12,7 @@ from symdh.cli.output import write_files
 from symdh.codegen import TARGETS, generate
 
 if TYPE_CHECKING:
-    from symdh.derivation import Document
+    from symdh.derivation.blocks import Document
     from symdh.robot import Robot
 
 
@@ -36,7 +36,7 @@ def derive(
     TABLE is a file, or - for standard input.
     """
     from symdh.codegen.names import file_stem
-    from symdh.derivation import derive as derive_document
+    from symdh.derivation.derive import derive as derive_document
     from symdh.kinematics.frame import first_frame, last_frame
     from symdh.render.latex import render_latex
     from symdh.render.terminal import render_result
@@ -57,7 +57,7 @@ def derive(
 
 def _everything(stem: str, robot: Robot, document: Document, paper: str) -> dict[str, bytes]:
     """Return every file that a table gives, by name: each document format, each code target."""
-    from symdh.render import FORMATS
+    from symdh.render.formats import FORMATS
 
     contents = {
         f"{stem}{form.extension}": form.render(document, paper=paper).encode() for form in FORMATS

@@ -30,7 +30,7 @@ def latex(
     force: bool,
 ) -> None:
     """Write the derivation, step by step, as LaTeX."""
-    from symdh.derivation import derive
+    from symdh.derivation.derive import derive
     from symdh.render.latex import render_latex
 
     document = derive(tables.read_robot(table), order=order, naming=notation)

@@ -42,7 +42,7 @@ def pdf(
 ) -> None:
     """Typeset the derivation as a PDF."""
     from symdh.codegen.names import file_stem
-    from symdh.derivation import derive
+    from symdh.derivation.derive import derive
     from symdh.render.latex import render_latex
     from symdh.render.pdf import compile_pdf
 

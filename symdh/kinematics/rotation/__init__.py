@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from symdh.kinematics.rotation.axis_angle import AxisAngle, axis_angle
 from symdh.kinematics.rotation.composing import About, Composition, Step, Turned, compose
+from symdh.kinematics.rotation.description import Description, describe
 from symdh.kinematics.rotation.euler import (
     SEQUENCES,
     Atan2,
     EulerAngles,
     EulerSequence,
+    degenerate_formula,
     euler_angles,
     euler_formulas,
     named_sequence,
@@ -18,10 +20,12 @@ from symdh.kinematics.rotation.matrix import (
     Rotation,
     check_family,
     nearest_rotation,
+    numbers_of,
 )
 from symdh.kinematics.rotation.quaternion import Quaternion, quaternion
 from symdh.kinematics.rotation.rates import inverse_rates, rates, rates_vanish
 from symdh.kinematics.rotation.reading import read_off
+from symdh.kinematics.rotation.stand_in import stand_in
 
 __all__ = [
     "SEQUENCES",
@@ -30,6 +34,7 @@ __all__ = [
     "Atan2",
     "AxisAngle",
     "Composition",
+    "Description",
     "EulerAngles",
     "EulerSequence",
     "Quaternion",
@@ -39,13 +44,17 @@ __all__ = [
     "axis_angle",
     "check_family",
     "compose",
+    "degenerate_formula",
+    "describe",
     "euler_angles",
     "euler_formulas",
     "inverse_rates",
     "named_sequence",
     "nearest_rotation",
+    "numbers_of",
     "quaternion",
     "rates",
     "rates_vanish",
     "read_off",
+    "stand_in",
 ]

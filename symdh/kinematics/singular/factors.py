@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import reduce
 
-from sympy import Dummy
+from sympy import Dummy, Symbol
 from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
@@ -80,6 +80,14 @@ class HalfAngles:
             while finite[piece] > 0:
                 found[self._with_partner(piece, finite)] += 1
         return [(factor, power) for factor, power in found.items() if not factor.is_ground]
+
+    def depends_on(self, piece: Element, symbols: set[Symbol]) -> bool:
+        """Say whether a piece has one of these symbols in it."""
+        stand_for = (*self.trig.angles, *self.trig.others)
+        return any(
+            _degree(piece, k) and expression.free_symbols & symbols
+            for k, expression in enumerate(stand_for)
+        )
 
     def _pieces(self, factor: Element) -> Pieces:
         numerator, degrees = self._numerator(factor)
