@@ -51,7 +51,7 @@ class Comparison:
         if self.goal is not None:
             goal = f"{'at least' if self.more_is_better else 'at most'} {self.goal:g}"
             verdict = "met" if self.is_met else "NOT MET"
-        figures = f"{self.ours:9.4f} s {self.theirs:9.4f} s {self.ratio:8.1f}"
+        figures = f"{self.ours:9.4f} s {self.theirs:9.4f} s {self.ratio:8.2f}"
         return f"{self.what:58} {figures}  {goal:13} {verdict}".rstrip()
 
 
@@ -112,9 +112,9 @@ def compare() -> list[Comparison]:
     simplified = call_time(lambda: simplify(product), repeats=2)
     python = [sys.executable, "-c"]
     show = process_times(
-        [SYMDH, "show", str(TABLE)], [*python, "import sympy, jinja2, click, yaml"], repeats=9
+        [SYMDH, "show", str(TABLE)], [*python, "import sympy, jinja2, click, yaml"], repeats=15
     )
-    usage = process_times([SYMDH, "--help"], [*python, "import click"], repeats=15)
+    usage = process_times([SYMDH, "--help"], [*python, "import click"], repeats=25)
     fewer = "simplify(plain product) against"
     return [
         Comparison(f"{fewer} forward kinematics", derivation, simplified, 100, more_is_better=True),

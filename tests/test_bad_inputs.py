@@ -49,7 +49,6 @@ WAITS = {
     "TE03": "issue 6: templates of the user",
     "TE04": "issue 6: templates of the user",
     "TE05": "issue 6: templates of the user",
-    "TX09": "issue 6: a preamble of the user",
     "TX11": "issue 8: lualatex",
 }
 
@@ -479,8 +478,19 @@ def test_no_tex_is_said_in_one_line_and_the_source_is_kept(
     assert not (tmp_path / "arm.pdf").exists()
 
 
+@action("TX09")
+def test_a_preamble_that_never_ends_is_stopped(
+    arm: Path, tmp_path: Path, run_symdh: Runner
+) -> None:
+    require_tool("pdflatex")
+    own = tmp_path / "own.tex"
+    own.write_text("\\def\\x{\\x}\\x\n")
+    options = ("--preamble", str(own), "--time-limit", "2")
+    refused(run_symdh("pdf", arm, "-o", "arm.pdf", *options), 4, "2 s", tmp_path)
+    assert not (tmp_path / "arm.pdf").exists()
+
+
 def test_tex_that_never_ends_is_stopped(arm: Path, tmp_path: Path, run_symdh: Runner) -> None:
-    """What TX09 asks of the time limit, with a TeX that sleeps in place of a hostile preamble."""
     (tmp_path / "bin").mkdir()
     endless = tmp_path / "bin" / "pdflatex"
     endless.write_text("#!/bin/sh\nexec /bin/sleep 50\n")

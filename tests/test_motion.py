@@ -19,6 +19,7 @@ from sympy import (
     ImmutableMatrix,
     Integer,
     Mul,
+    Pow,
     Rational,
     Symbol,
     cos,
@@ -56,7 +57,6 @@ POINT = dict(
     zip(NAMES, map(Fraction, ("7/10", "-13/9", "11/4", "2/7", "8/5", "-3/11")), strict=True)
 )
 SYMBOLS = {name: Symbol(name, real=True) for name in NAMES}
-AT_POINT = {SYMBOLS[name]: Rational(x.numerator, x.denominator) for name, x in POINT.items()}
 
 q1, q2, q3, q4, a1, a2 = (SYMBOLS[name] for name in NAMES)
 X, Y, Z = Axis
@@ -136,7 +136,7 @@ STEP = st.one_of(
 )
 STEPS = st.lists(STEP, max_size=9)
 
-checked = settings(max_examples=120, deadline=None, derandomize=True)
+checked = settings(max_examples=80, deadline=None, derandomize=True)
 
 
 def word_of(steps: Sequence[Step]) -> Word:
@@ -150,13 +150,28 @@ def product_of(steps: Sequence[Step]) -> np.ndarray:
     return product
 
 
+def value_of(expression: Expr) -> Any:
+    """Work out an exact expression at the point."""
+    if expression.is_Rational:
+        return MP.mpf(expression.p) / expression.q
+    if expression is pi:
+        return MP.pi
+    if isinstance(expression, Symbol):
+        return MP.mpf(POINT[expression.name].numerator) / POINT[expression.name].denominator
+    parts = [value_of(part) for part in expression.args]
+    if isinstance(expression, Add):
+        return MP.fsum(parts)
+    if isinstance(expression, Mul):
+        return MP.fprod(parts)
+    if isinstance(expression, Pow):
+        return MP.power(*parts)
+    return {cos: MP.cos, sin: MP.sin}[type(expression)](*parts)
+
+
 def numeric(matrix: ImmutableMatrix) -> np.ndarray:
     """Put the point into an exact matrix."""
     rows, columns = matrix.shape
-    values = [
-        [MP.mpf(str(matrix[r, c].xreplace(AT_POINT).evalf(36))) for c in range(columns)]
-        for r in range(rows)
-    ]
+    values = [[value_of(matrix[r, c]) for c in range(columns)] for r in range(rows)]
     return np.array(values, dtype=object)
 
 
@@ -284,7 +299,11 @@ def test_rotations_keep_their_order() -> None:
             (rotation(X, pi / 3), rotation(Z, q1), rotation(X, -pi / 3)),
             (rotation(X, pi / 3), rotation(Z, q1), rotation(X, -pi / 3)),
         ),
-        ((rotation(Z, pi / 4), rotation(Z, pi / 4)), (rotation(Z, pi / 2),)),
+        # Angles that add up to a right angle turn what stands behind them.
+        (
+            (rotation(X, pi / 4), rotation(X, pi / 4), rotation(Z, q1)),
+            (rotation(Y, -q1), rotation(X, pi / 2)),
+        ),
     ],
 )
 def test_the_rules_of_fusing(word: Word, fused: Word) -> None:
@@ -471,7 +490,7 @@ def operations(expression: Expr) -> int:
     """Count what stands in an expression tree: additions, multiplications, sines and cosines."""
     total = 0
     for node in preorder_traversal(expression):
-        if isinstance(node, Add) and not any(isinstance(a, (cos, sin)) for a in [node]):
+        if isinstance(node, Add):
             total += len(node.args) - 1
         elif isinstance(node, Mul):
             total += sum(1 for factor in node.args if factor != -1) - 1

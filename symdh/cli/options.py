@@ -68,6 +68,15 @@ def document_options(function: F) -> F:
     return order(notation_option(paper(function)))
 
 
+def preamble_option(function: F) -> F:
+    """Add --preamble."""
+    return click.option(
+        "--preamble",
+        metavar="FILE",
+        help="LaTeX of your own for the preamble: packages, fonts, a header.",
+    )(function)
+
+
 def force_option(function: F) -> F:
     """Add --force."""
     return click.option(

@@ -16,11 +16,13 @@ from symdh.cli.commands.evaluate import evaluate
 from symdh.cli.commands.init import init
 from symdh.cli.commands.latex import latex
 from symdh.cli.commands.pdf import pdf
+from symdh.cli.commands.rotate import rotate
 from symdh.cli.commands.show import show
+from symdh.cli.commands.task import task
 from symdh.cli.options import examples
 
 #: In the order in which a newcomer meets them.
-COMMANDS = (init, check, derive, show, evaluate, latex, pdf, code, completion)
+COMMANDS = (init, check, derive, show, evaluate, task, rotate, latex, pdf, code, completion)
 
 
 class Program(click.Group):

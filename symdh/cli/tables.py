@@ -25,6 +25,21 @@ def read_robot(path: str) -> Robot:
     return loaded.robot
 
 
+def read_preamble(path: str | None) -> str:
+    """Return the text of a preamble file; nothing where none is asked for.
+
+    Raises
+    ------
+    TableError, ReadError
+        When it is no text, or cannot be read.
+    """
+    if path is None:
+        return ""
+    from symdh.table.source import read_source
+
+    return read_source(path).text
+
+
 def frames_between(robot: Robot, start: str | None, end: str | None) -> tuple[Frame, Frame]:
     """Return the two frames that a user named; the whole chain where nothing is said.
 

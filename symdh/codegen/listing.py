@@ -23,8 +23,9 @@ class Local:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """An entry of the result, by row and column from 0, and the text that it is set to."""
+    """An entry of a matrix, by row and column from 0, and the text that it is set to."""
 
+    matrix: str
     row: int
     column: int
     text: str
@@ -72,5 +73,7 @@ def write_listing(
     return Listing(
         inputs=frozenset(node.exact for node in routine.inputs),
         locals=tuple(Local(names[a.node], printer.definition(a.node)) for a in routine.assignments),
-        entries=tuple(Entry(o.row, o.column, printer.expression(o.node)) for o in routine.outputs),
+        entries=tuple(
+            Entry(o.matrix, o.row, o.column, printer.expression(o.node)) for o in routine.outputs
+        ),
     )

@@ -18,8 +18,9 @@ _LINE = 5
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """An entry of the result: its name (r11, px), its place in the matrix, and its value."""
+    """An entry of a result: the matrix (T, J), its name (r11, px), its place, and its value."""
 
+    matrix: str
     name: str
     row: int
     column: int
@@ -48,7 +49,7 @@ class Routine:
     assignments : tuple of Assignment
         In order: each uses inputs and what is assigned above it.
     outputs : tuple of Output
-        What is not among them is constant: the last row of a pose.
+        What is not among them is constant: the last row of a pose, say.
     """
 
     inputs: tuple[Node, ...]
@@ -70,7 +71,8 @@ def schedule(outputs: Sequence[Output], names: Mapping[Node, str]) -> Routine:
         Readable names; they need not be unique, nor be there at all.
     """
     needed = reachable(output.node for output in outputs)
-    readable = {**{output.node: output.name for output in outputs}, **names}
+    # Of several outputs with one value, the first gives the name.
+    readable = {**{output.node: output.name for output in reversed(outputs)}, **names}
     temporary = (f"t{number}" for number in count(1))
     assignments = tuple(
         Assignment(readable.get(node) or next(temporary), node)

@@ -81,8 +81,8 @@ class Attitude:
     ----------
     style : Style
         How its expressions and angles are written.
-    matrix : ImmutableMatrix
-        Exact, 3x3.
+    matrix : ImmutableMatrix or None
+        Exact, 3x3; None where its closed form would be too large.
     word : Word or None
         The rotations that made it, where they are known.
     numbers : Description or None
@@ -90,7 +90,7 @@ class Attitude:
     """
 
     style: Style
-    matrix: ImmutableMatrix
+    matrix: ImmutableMatrix | None
     word: Word | None
     numbers: Description | None
 
@@ -164,7 +164,7 @@ def euler_blocks(attitude: Attitude, sequence: EulerSequence) -> list[Block]:
         forms = [atan2_node(attitude.style, formula)]
         if found is not None and not singular:
             forms.append(attitude.angle(found.angles[place]))
-        elif found is None:
+        elif found is None and attitude.matrix is not None:
             exact = euler_formulas(attitude.matrix, sequence)[place]
             forms += _short_enough([atan2_node(attitude.style, exact)])
         steps.append(EntryStep(name, tuple(forms), None))

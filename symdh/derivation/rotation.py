@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-
-from sympy import Expr, ImmutableMatrix, Integer
+from sympy import Expr, Integer
 
 from symdh.derivation.attitude import Attitude, chapters
 from symdh.derivation.blocks import (
@@ -20,8 +18,14 @@ from symdh.derivation.blocks import (
 )
 from symdh.derivation.legend import legend
 from symdh.derivation.style import Style
-from symdh.kinematics.frame import Frame
-from symdh.kinematics.rotation import About, Composition, Description, EulerSequence, Turned
+from symdh.kinematics.rotation import (
+    About,
+    Composition,
+    EulerSequence,
+    RotationResult,
+    Turned,
+    numbers_of,
+)
 from symdh.motion import Word, rotation
 from symdh.notation.nodes import (
     Equation,
@@ -36,41 +40,11 @@ from symdh.notation.nodes import (
     Unit,
 )
 from symdh.notation.numbers import figures
-from symdh.robot import Robot
 
 R = Generic("R")
 
-
-@dataclass(frozen=True)
-class RotationResult:
-    """What a document on one rotation tells.
-
-    Attributes
-    ----------
-    robot : Robot
-        The arm whose orientation it is, or a stand-in for plain rotations.
-    matrix : ImmutableMatrix
-        Exact, 3x3.
-    composition : Composition or None
-        How it came about, where it was composed.
-    frames : (Frame, Frame) or None
-        The frames of an arm between which it was taken.
-    word : Word or None
-        The rotations that make it, where they are known.
-    point, moved : tuple of 3 Expr, or None
-        A point of the body before and after.
-    numbers : Description or None
-        None where symbols have no values.
-    """
-
-    robot: Robot
-    matrix: ImmutableMatrix
-    composition: Composition | None = None
-    frames: tuple[Frame, Frame] | None = None
-    word: Word | None = None
-    point: tuple[Expr, ...] | None = None
-    moved: tuple[Expr, ...] | None = None
-    numbers: Description | None = None
+#: What double precision may leave of a rotation that was typed exactly.
+_ROUNDING = 1e-14
 
 
 def rotation_document(result: RotationResult, sequences: Sequence[EulerSequence]) -> Document:
@@ -115,7 +89,7 @@ def _composing(style: Style, composition: Composition) -> Chapter:
             )
         )
     ]
-    introduced = legend(style, [_written(style, composition.matrix)])
+    introduced = legend(style, [style.notation.matrix(composition.matrix)])
     if introduced is not None:
         blocks.append(introduced)
     for number, turned in enumerate(composition.steps, start=1):
@@ -153,37 +127,49 @@ def _step(style: Style, number: int, turned: Turned) -> list[Block]:
         *(f" about {own} ", letter, f" axis: {side}."),
     )
     names = (after, Juxtaposed(factors))
-    return [Paragraph(told), NamedMatrix(names, _written(style, turned.matrix))]
+    return [Paragraph(told), NamedMatrix(names, style.notation.matrix(turned.matrix))]
 
 
 def _matrix(style: Style, result: RotationResult) -> Chapter:
-    written = _written(style, result.matrix)
     letters = [Generic(letter) for letter in "nsa"]
-    blocks: list[Block] = [NamedMatrix((R,), written)]
-    introduced = legend(style, [written]) if result.composition is None else None
-    if introduced is not None:
-        blocks.append(introduced)
+    blocks: list[Block] = []
+    if result.matrix is not None:
+        written = style.notation.matrix(result.matrix)
+        blocks.append(NamedMatrix((R,), written))
+        introduced = legend(style, [written]) if result.composition is None else None
+        if introduced is not None:
+            blocks.append(introduced)
     blocks.append(
         Paragraph(
             (
-                *("Its columns ", letters[0], ", ", letters[1], " and ", letters[2]),
+                *("The columns ", letters[0], ", ", letters[1], " and ", letters[2], " of ", R),
                 " are the body's x, y and z axis, seen from the fixed frame.",
             )
         )
     )
-    if result.numbers is not None and not _is_plain(result.matrix):
+    if result.numbers is not None and not _is_plain(result):
         rows = tuple(tuple(Rounded(figures(x)) for x in row) for row in result.numbers.matrix)
         blocks += [Paragraph(("In numbers:",)), NamedMatrix((R,), Matrix(rows))]
+    missed = _deviation(result)
+    if missed > _ROUNDING:
+        told = f"The numbers given miss a rotation by up to {figures(missed)}; what follows is "
+        blocks.append(Paragraph((told + "about the nearest rotation.",)))
     return Chapter("The rotation matrix", tuple(blocks))
 
 
-def _is_plain(matrix: ImmutableMatrix) -> bool:
+def _is_plain(result: RotationResult) -> bool:
     """Say whether the exact matrix reads like numbers already."""
-    return all(entry.is_Integer for entry in matrix)
+    return result.matrix is not None and all(entry.is_Integer for entry in result.matrix)
 
 
-def _written(style: Style, matrix: ImmutableMatrix) -> Matrix:
-    return style.notation.matrix(matrix)
+def _deviation(result: RotationResult) -> float:
+    """Return by how much the numbers of a given matrix differ from the rotation described."""
+    typed = result.composition is None and result.frames is None
+    if not typed or result.numbers is None or result.matrix is None:
+        return 0.0
+    given = numbers_of(result.matrix.xreplace(dict(result.robot.values)))
+    near = result.numbers.matrix
+    return max(abs(given[r][c] - near[r][c]) for r in range(3) for c in range(3))
 
 
 def _point(
@@ -211,6 +197,3 @@ def _point(
 def _float(number: Expr) -> float:
     value = number.evalf(30, chop=True)
     return 0.0 if abs(value) < Integer(10) ** -25 else float(value)
-
-
-__all__ = ["RotationResult", "rotation_document"]

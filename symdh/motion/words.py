@@ -64,6 +64,16 @@ def fuse(word: Iterable[Motion]) -> Word:
 
 def fuse_to_turn(word: Iterable[Motion]) -> tuple[Word, Turn]:
     """Bring a word to its short form, the trailing right-angle turn kept apart."""
+    motions, turn = _pass(word)
+    # Two angles may add up to a right angle: Rx(45 deg) Rx(45 deg) turns the axes behind it too.
+    while any(split_quarters(motion)[0] != motion for motion in rotations(motions)):
+        motions, more = _pass(motions)
+        turn = more.then(turn)
+    return motions, turn
+
+
+def _pass(word: Iterable[Motion]) -> tuple[Word, Turn]:
+    """Go through a word once: right angles to the end, neighbours added."""
     fused: list[Motion] = []
     turn = IDENTITY
     for motion in word:

@@ -64,7 +64,9 @@ class Line:
     tied: bool = False
 
 
-def render_latex(document: Document, fragment: bool = False, paper: str = "a4") -> str:
+def render_latex(
+    document: Document, fragment: bool = False, paper: str = "a4", preamble: str = ""
+) -> str:
     r"""Write a document as LaTeX.
 
     Parameters
@@ -74,6 +76,8 @@ def render_latex(document: Document, fragment: bool = False, paper: str = "a4") 
         Leave out the preamble, for ``\input`` into a document of one's own.
     paper : str
         ``"a4"`` or ``"letter"``.
+    preamble : str
+        LaTeX of the user's own, put behind the packages as it is.
 
     Returns
     -------
@@ -96,6 +100,7 @@ def render_latex(document: Document, fragment: bool = False, paper: str = "a4") 
             for chapter in document.chapters
         ],
         paper=PAPERS[paper],
+        preamble=preamble.strip(),
         version=__version__,
     )
 

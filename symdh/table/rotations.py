@@ -28,6 +28,7 @@ from symdh.table.units import ANGLE, LENGTH, NUMBER, Dimension
 from symdh.table.uses import dimensions_of_symbols
 
 MAX_ROTATIONS = 50
+NO_UNITS = Units()
 
 KEYS = ("title", "units", "rotations", "matrix", "point", "values", "notes")
 _KEY_ALIASES = {"steps": "rotations", "rotation": "rotations", "name": "title", "r": "matrix"}
@@ -149,28 +150,30 @@ def parse_matrix(text: str, name: str = "--matrix") -> tuple[Expr, ...]:
     return _parse_list(text, name, "matrix", NUMBER, 9)
 
 
-def parse_point(text: str, name: str = "--point") -> tuple[Expr, ...]:
+def parse_point(
+    text: str, units: Units = NO_UNITS, name: str = "--point"
+) -> tuple[Expr, ...]:
     """Read three coordinates: ``1,2,3`` or ``a_x, a_y, 0``; see `parse_matrix`."""
-    return _parse_list(text, name, "point", LENGTH, 3)
+    return _parse_list(text, name, "point", LENGTH, 3, units)
 
 
 def _parse_list(
-    text: str, name: str, key: str, dimension: Dimension, count: int
+    text: str, name: str, key: str, dimension: Dimension, count: int, units: Units = NO_UNITS
 ) -> tuple[Expr, ...]:
-    node, reader = _line(text, name)
+    node, reader = _line(text, name, units)
     cells = _read_list(node, key, dimension, count, reader)
     reader.report.raise_errors()
     return _amounts(cells) or ()
 
 
-def _line(text: str, name: str) -> tuple[ScalarNode, CellReader]:
+def _line(text: str, name: str, units: Units = NO_UNITS) -> tuple[ScalarNode, CellReader]:
     """Return one line of the command line as the reader of files sees a text."""
     source = from_text(text, name)
     node = ScalarNode(source.text, 1, 1)
     report = Report(source)
     if "\n" in source.text:
         raise source.error(node.place(source.text.index("\n")), "this must stand on one line")
-    return node, CellReader(report, Units())
+    return node, CellReader(report, units)
 
 
 def _sections(root: MappingNode, report: Report) -> dict[str, Node]:

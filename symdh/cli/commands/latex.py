@@ -19,6 +19,7 @@ from symdh.cli import files, options, tables
     "--fragment", is_flag=True, help="Leave out the preamble, to \\input into a document of yours."
 )
 @options.document_options
+@options.preamble_option
 @options.force_option
 def latex(
     table: str,
@@ -27,6 +28,7 @@ def latex(
     order: str,
     notation: str,
     paper: str,
+    preamble: str | None,
     force: bool,
 ) -> None:
     """Write the derivation, step by step, as LaTeX."""
@@ -34,5 +36,7 @@ def latex(
     from symdh.render.latex import render_latex
 
     document = derive(tables.read_robot(table), order=order, naming=notation)
-    text = render_latex(document, fragment=fragment, paper=paper)
+    text = render_latex(
+        document, fragment=fragment, paper=paper, preamble=tables.read_preamble(preamble)
+    )
     files.save(output or "-", text.encode(), force=force)

@@ -29,6 +29,7 @@ from symdh.errors import OutputError
     help="Stop typesetting after this time.",
 )
 @options.document_options
+@options.preamble_option
 @options.force_option
 def pdf(
     table: str,
@@ -38,6 +39,7 @@ def pdf(
     order: str,
     notation: str,
     paper: str,
+    preamble: str | None,
     force: bool,
 ) -> None:
     """Typeset the derivation as a PDF."""
@@ -47,7 +49,9 @@ def pdf(
     from symdh.render.pdf import compile_pdf
 
     robot = tables.read_robot(table)
-    tex = render_latex(derive(robot, order=order, naming=notation), paper=paper)
+    own = tables.read_preamble(preamble)
+    document = derive(robot, order=order, naming=notation)
+    tex = render_latex(document, paper=paper, preamble=own)
     stem = file_stem(robot.name)
     output = output or f"{stem}.pdf"
     try:

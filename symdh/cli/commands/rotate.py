@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from symdh.cli import arguments, console, files, options, tables
-from symdh.errors import UnsupportedError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from sympy import Expr, ImmutableMatrix
-
-    from symdh.derivation.rotation import RotationResult
-    from symdh.kinematics.rotation import Description, EulerSequence
-    from symdh.robot import Robot
+    from symdh.kinematics.rotation import EulerSequence, RotationResult
     from symdh.table.rotations import RotationSheet
 
 
@@ -95,8 +89,6 @@ def rotate(
     Prints the matrix, where a point goes, Euler angles (formulas, all 12 sequences in numbers),
     axis and angle, and the quaternion.
     """
-    from symdh.derivation.rotation import rotation_document
-
     sources = [given for given in (rotations, matrix, table) if given is not None]
     if len(sources) != 1:
         raise click.UsageError("Give rotations, a file of them, --matrix or --table; one of them.")
@@ -104,26 +96,93 @@ def rotate(
         raise click.UsageError("--from and --to need --table.")
     wanted = _sequences(sequences)
     if table is not None:
-        found = _from_table(table, start, end, point, settings, symbolic, tolerance)
+        found = _from_table(table, start, end, point, settings, symbolic)
     else:
         found = _from_sheet(_sheet(rotations, matrix, point), settings, symbolic, tolerance)
-    files.save(output or "-", _text(found, wanted, form, rotation_document).encode(), force=force)
+    files.save(output or "-", _text(found, wanted, form).encode(), force=force)
 
 
-def _text(
-    found: RotationResult, wanted: Sequence[EulerSequence], form: str, document: object
-) -> str:
-    from symdh.derivation.rotation import rotation_document
+def _sequences(names: tuple[str, ...]) -> tuple[EulerSequence, ...]:
+    """Return the sequences of Euler angles that were asked for, each once."""
+    from symdh.kinematics.rotation import SEQUENCES, named_sequence
 
+    if any(name.strip().lower() == "all" for name in names):
+        return SEQUENCES
+    return tuple(dict.fromkeys(named_sequence(name) for name in names or ("zyx", "zyz")))
+
+
+def _sheet(rotations: str | None, matrix: str | None, point: str | None) -> RotationSheet:
+    """Read what was typed, or the file that was named."""
+    from symdh.table.rotations import (
+        RotationSheet,
+        parse_matrix,
+        parse_point,
+        parse_rotations,
+        read_rotation_sheet,
+    )
+    from symdh.table.source import read_source
+
+    if matrix is not None:
+        sheet = RotationSheet(matrix=parse_matrix(arguments.as_utf8(matrix)))
+    elif rotations == "-" or Path(rotations or "").suffix.lower() in (".yaml", ".yml"):
+        sheet = read_rotation_sheet(read_source(str(rotations)))
+    else:
+        sheet = parse_rotations(arguments.as_utf8(str(rotations)))
+    console.show_diagnostics(sheet.warnings)
+    if point is None:
+        return sheet
+    return replace(sheet, point=parse_point(arguments.as_utf8(point), sheet.units))
+
+
+def _from_sheet(
+    sheet: RotationSheet, settings: tuple[str, ...], symbolic: bool, tolerance: float
+) -> RotationResult:
+    """Compose the rotations of a sheet, or take its matrix."""
+    from symdh.kinematics.rotation import About, Step, of_matrix, of_steps, stand_in
+
+    steps = [
+        Step(each.axis, each.angle, About.FIXED if each.fixed else About.BODY)
+        for each in sheet.rotations
+    ]
+    robot = stand_in(steps, sheet.point, sheet.units, sheet.values, sheet.title)
+    robot = replace(robot, values={**robot.values, **arguments.assignment(robot, settings)})
+    if sheet.matrix is not None:
+        return of_matrix(robot, sheet.matrix, sheet.point, symbolic, tolerance)
+    return of_steps(robot, steps, sheet.point, symbolic)
+
+
+def _from_table(
+    table: str,
+    start: str | None,
+    end: str | None,
+    point: str | None,
+    settings: tuple[str, ...],
+    symbolic: bool,
+) -> RotationResult:
+    """Take the orientation between two frames of an arm."""
+    from symdh.kinematics.rotation import of_arm
+    from symdh.table.rotations import parse_point
+
+    robot = tables.read_robot(table)
+    first, last = tables.frames_between(robot, start, end)
+    followed = None if point is None else parse_point(arguments.as_utf8(point), robot.units)
+    values = arguments.assignment(robot, settings)
+    robot = replace(robot, values={**robot.values, **values})
+    return of_arm(robot, first, last, values, followed, symbolic)
+
+
+def _text(found: RotationResult, wanted: tuple[EulerSequence, ...], form: str) -> str:
     if form == "json":
         from symdh.render.rotation_json import rotation_json
 
-        return rotation_json(found, wanted) + "\n"
-    written = rotation_document(found, wanted)
+        return rotation_json(found) + "\n"
+    from symdh.derivation.rotation import rotation_document
+
+    document = rotation_document(found, wanted)
     if form == "latex":
         from symdh.render.latex import render_latex
 
-        return render_latex(written)
+        return render_latex(document)
     from symdh.render.terminal import render_chapters
 
-    return render_chapters(written.chapters, width=console.width()) + "\n"
+    return render_chapters(document.chapters, width=console.width()) + "\n"

@@ -1,19 +1,23 @@
-"""Python: one module that needs NumPy alone, ``fk(q)`` of shape (..., n) to (..., 4, 4)."""
+"""Python: one module that needs NumPy alone.
+
+``fk(q)`` takes (..., n) to (..., 4, 4), ``jacobian(q)`` to (..., 6, n), ``fk_jacobian(q)`` to both.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from sympy import Symbol
 
 from symdh.codegen.environment import render
-from symdh.codegen.facts import Facts, facts_of
+from symdh.codegen.facts import facts_of
 from symdh.codegen.forward import forward_routine
 from symdh.codegen.graph import Op
-from symdh.codegen.listing import Listing, Local, write_listing
+from symdh.codegen.jacobian import forward_jacobian_routine, jacobian_routine
+from symdh.codegen.listing import Entry, Local, write_listing
 from symdh.codegen.literals import literal
 from symdh.codegen.names import PYTHON_KEYWORDS, Scope, comment_text, file_stem, words
+from symdh.codegen.routine import Routine
 from symdh.codegen.targets import GeneratedFile
 from symdh.robot import Robot
 
@@ -43,29 +47,35 @@ _BUILTINS = words(
 )
 
 #: Names that the template of the module uses itself.
-_OWN = frozenset({"fk", "np", "npt", "q", "T", "N_JOINTS", "JOINT_NAMES", "JOINT_LIMITS"})
+_OWN = words("fk jacobian fk_jacobian np npt q T J N_JOINTS JOINT_NAMES JOINT_LIMITS")
 
 _RESERVED = PYTHON_KEYWORDS | _BUILTINS | _OWN
 
 
 @dataclass(frozen=True, slots=True)
 class _Parameter:
-    """A keyword argument of ``fk``; `default` is None where a caller must give a value."""
+    """A keyword argument of every function; `default` is None where a caller must give a value."""
 
     name: str
     default: str | None
     original: str
 
 
+@dataclass(frozen=True, slots=True)
+class _Body:
+    """The lines of a function: its locals, then the entries of its matrices that are not 0."""
+
+    locals: tuple[Local, ...]
+    entries: tuple[Entry, ...]
+
+
 def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
     """Generate ``NAME.py`` (see `symdh.codegen.generate`)."""
-    scope = Scope(_RESERVED.__contains__)
-    symbols = scope.take_symbols([*robot.parameters, *robot.variables])
-    listing = write_listing(forward_routine(robot), _FUNCTIONS, symbols, scope)
+    names = _symbol_names(_scope(), robot)
     facts = facts_of(robot)
     parameters = [
         _Parameter(
-            name=symbols[parameter],
+            name=names[parameter],
             default=literal(robot.values[parameter]) if parameter in robot.values else None,
             original=comment_text(parameter.name),
         )
@@ -81,19 +91,35 @@ def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
         required=[parameter for parameter in parameters if parameter.default is None],
         joint_names=[f'"{joint.name}"' for joint in facts.joints],
         joint_limits=[_limits(joint.limits) for joint in facts.joints],
-        locals=[*_reads(facts, listing, symbols), *listing.locals],
-        entries=[entry for entry in listing.entries if entry.text != "0.0"],
+        fk=_body(robot, forward_routine(robot)),
+        jacobian=_body(robot, jacobian_routine(robot)),
+        fk_jacobian=_body(robot, forward_jacobian_routine(robot)),
     )
     return (GeneratedFile(f"{stem}.py", text),)
 
 
-def _reads(facts: Facts, listing: Listing, symbols: Mapping[Symbol, str]) -> list[Local]:
-    """Return the locals that joint variables are read into."""
-    return [
-        Local(symbols[joint.symbol], f"q[..., {place}]")
-        for place, joint in enumerate(facts.joints)
-        if joint.symbol in listing.inputs
-    ]
+def _scope() -> Scope:
+    return Scope(_RESERVED.__contains__)
+
+
+def _symbol_names(scope: Scope, robot: Robot) -> dict[Symbol, str]:
+    """Name the symbols; a fresh scope gives each the same name in every function."""
+    return scope.take_symbols([*robot.parameters, *robot.variables])
+
+
+def _body(robot: Robot, routine: Routine) -> _Body:
+    scope = _scope()
+    names = _symbol_names(scope, robot)
+    listing = write_listing(routine, _FUNCTIONS, names, scope)
+    reads = (
+        Local(names[variable], f"q[..., {place}]")
+        for place, variable in enumerate(robot.variables)
+        if variable in listing.inputs
+    )
+    return _Body(
+        locals=(*reads, *listing.locals),
+        entries=tuple(entry for entry in listing.entries if entry.text != "0.0"),
+    )
 
 
 def _limits(limits: tuple[str, str] | None) -> str:

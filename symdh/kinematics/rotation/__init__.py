@@ -25,6 +25,7 @@ from symdh.kinematics.rotation.matrix import (
 from symdh.kinematics.rotation.quaternion import Quaternion, quaternion
 from symdh.kinematics.rotation.rates import inverse_rates, rates, rates_vanish
 from symdh.kinematics.rotation.reading import read_off
+from symdh.kinematics.rotation.result import RotationResult, of_arm, of_matrix, of_steps
 from symdh.kinematics.rotation.stand_in import stand_in
 
 __all__ = [
@@ -39,6 +40,7 @@ __all__ = [
     "EulerSequence",
     "Quaternion",
     "Rotation",
+    "RotationResult",
     "Step",
     "Turned",
     "axis_angle",
@@ -52,6 +54,9 @@ __all__ = [
     "named_sequence",
     "nearest_rotation",
     "numbers_of",
+    "of_arm",
+    "of_matrix",
+    "of_steps",
     "quaternion",
     "rates",
     "rates_vanish",

@@ -12,12 +12,13 @@ from symdh.motion import translation
 from symdh.robot import Axis, Convention, Joint, JointType, Robot, Units, in_name_order
 
 _ZERO = Integer(0)
+_NO_UNITS = Units()
 
 
 def stand_in(
     steps: Sequence[Step],
     point: Sequence[Expr] | None = None,
-    units: Units = Units(),  # noqa: B008  (frozen)
+    units: Units = _NO_UNITS,
     values: Mapping[Symbol, Expr] | None = None,
     title: str | None = None,
 ) -> Robot:

@@ -40,6 +40,16 @@ class Pieces:
     finite: Counter[Element]
     infinite: Counter[int]
 
+    @property
+    def support(self) -> frozenset[object]:
+        """What the product vanishes with, without multiplicities."""
+        return frozenset((*self.finite, *self.infinite))
+
+    @property
+    def terms(self) -> int:
+        """How many terms the largest of the finite pieces has."""
+        return max((len(piece) for piece in self.finite), default=0)
+
     def __and__(self, other: Pieces) -> Pieces:
         return Pieces(self.finite & other.finite, self.infinite & other.infinite)
 
@@ -71,7 +81,7 @@ class HalfAngles:
         finite, infinite = Counter(pieces.finite), Counter(pieces.infinite)
         found: Counter[Element] = Counter()
         for piece, power in sorted(finite.items(), key=_sorting):
-            if not any(self._odd(piece)):
+            if not self._odd(piece):
                 found[self._read_back(piece, {})] += power
                 del finite[piece]
         for k in sorted(infinite):
@@ -81,7 +91,12 @@ class HalfAngles:
                 found[self._with_partner(piece, finite)] += 1
         return [(factor, power) for factor, power in found.items() if not factor.is_ground]
 
-    def depends_on(self, piece: Element, symbols: set[Symbol]) -> bool:
+    def moving(self, pieces: Pieces, symbols: set[Symbol]) -> Pieces:
+        """Return the pieces that have one of these symbols in them."""
+        kept = {p: m for p, m in pieces.finite.items() if self._depends_on(p, symbols)}
+        return Pieces(Counter(kept), pieces.infinite)
+
+    def _depends_on(self, piece: Element, symbols: set[Symbol]) -> bool:
         """Say whether a piece has one of these symbols in it."""
         stand_for = (*self.trig.angles, *self.trig.others)
         return any(
@@ -159,30 +174,40 @@ class HalfAngles:
         found[sine] += paired
         found[1 + cosine] += (times - paired) // 2
         if (times - paired) % 2:
-            partner = next(
-                p for p in sorted(finite, key=lambda p: _sorting((p, 1)))
-                if finite[p] > 0 and self._odd(p) == [k]
-            )
-            finite[partner] -= 1
-            found[self._read_back(partner, {k: 1})] += 1
+            found[self._odd_infinity(k, finite)] += 1
         return +found
 
+    def _odd_infinity(self, k: int, finite: Counter[Element]) -> Element:
+        """Pair a single infinity with another half of a factor, or with itself."""
+        left = [p for p in sorted(finite, key=lambda p: _sorting((p, 1))) if finite[p] > 0]
+        partner = next((p for p in left if self._odd(p) == [k]), None)
+        if partner is None:
+            return 1 + self.trig.ring.gens[2 * k]
+        finite[partner] -= 1
+        return self._read_back(partner, {k: 1})
+
     def _with_partner(self, piece: Element, finite: Counter[Element]) -> Element:
-        """Return the factor that an odd piece makes with others, its half-turn image first."""
+        """Return the factor that an odd piece makes with others, its half-turn image first.
+
+        In a determinant there is always a partner. In a common divisor a half may be alone: its
+        square vanishes at the same place.
+        """
         finite[piece] -= 1
         product = piece
         while odd := self._odd(product):
             image = self._half_turned(product, odd[0])
             partner = image if finite[image] > 0 else self._any_partner(odd, finite)
+            if partner is None:
+                return self._read_back(product * product, {})
             finite[partner] -= 1
             product = product * partner
         return self._read_back(product, {})
 
-    def _any_partner(self, odd: list[int], finite: Counter[Element]) -> Element:
+    def _any_partner(self, odd: list[int], finite: Counter[Element]) -> Element | None:
         left = [p for p in sorted(finite, key=lambda p: _sorting((p, 1))) if finite[p] > 0]
         alike = [p for p in left if self._odd(p) == odd]
         sharing = [p for p in left if set(self._odd(p)) & set(odd)]
-        return (alike or sharing)[0]
+        return next(iter(alike or sharing), None)
 
     def _half_turned(self, piece: Element, k: int) -> Element:
         """Return what a piece becomes when angle k grows by 180 degrees: t_k is now -1/t_k."""

@@ -5,14 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property
 from itertools import pairwise
 
 from symdh.kinematics.frame import Frame
-from symdh.kinematics.singular.factors import HalfAngles, Pieces
+from symdh.kinematics.singular.factors import HalfAngles
 from symdh.kinematics.singular.screws import direction, lever
-from symdh.kinematics.singular.trig_ring import Element, TrigRing, Vector
+from symdh.kinematics.singular.solving import joint_angles
+from symdh.kinematics.singular.trig_ring import Element, Vector
 from symdh.kinematics.velocity import axis_frame
 from symdh.robot import JointType, Robot
+
+
+#: Terms of a volume past which it is not compared: no factor with a name is so long.
+MAX_VOLUME = 60
 
 
 class Kind(Enum):
@@ -55,22 +61,28 @@ class Meanings:
         self._turning = [
             i for i in joints if robot.joints[i - 1].type is JointType.REVOLUTE
         ]
-        self._known: list[tuple[Meaning, Pieces]] | None = None
 
     def of(self, factor: Element) -> Meaning | None:
-        """Return what a factor means: the first place at which it vanishes with the volume."""
-        own = self._half_angles.pieces([factor])
-        if self._known is None:
-            self._known = [
-                (meaning, self._half_angles.pieces([volume]))
-                for meaning, volume in self._volumes()
-                if volume
-            ]
-        for meaning, pieces in self._known:
-            rest = own - pieces
-            if not rest.finite and not rest.infinite:
-                return meaning
-        return None
+        """Return what a factor of joint angles means.
+
+        The place whose volume is this factor and lengths, else the first whose volume contains it.
+        """
+        if not joint_angles(self._ring, factor):
+            return None
+        own = self._half_angles.pieces([factor]).support
+        alike = [meaning for meaning, support in self._places if support == own]
+        containing = [meaning for meaning, support in self._places if support >= own]
+        return next(iter((*alike, *containing)), None)
+
+    @cached_property
+    def _places(self) -> list[tuple[Meaning, frozenset[object]]]:
+        variables = set(self._robot.variables)
+        places = []
+        for meaning, volume in self._volumes():
+            if volume and len(volume) <= MAX_VOLUME:
+                pieces = self._half_angles.pieces([volume])
+                places.append((meaning, self._half_angles.moving(pieces, variables).support))
+        return places
 
     def _volumes(self) -> Iterator[tuple[Meaning, Element]]:
         """Yield each place with the volume that three directions span there."""
@@ -119,8 +131,4 @@ class Meanings:
         return [*range(axis_frame(self._robot, i) + 1, self._robot.n + 1), *last]
 
     def _volume(self, a: Vector, b: Vector, c: Vector) -> Element:
-        return _ring_volume(self._ring, a, b, c)
-
-
-def _ring_volume(ring: TrigRing, a: Vector, b: Vector, c: Vector) -> Element:
-    return ring.dot(a, ring.cross(b, c))
+        return self._ring.dot(a, self._ring.cross(b, c))

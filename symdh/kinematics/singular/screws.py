@@ -52,16 +52,25 @@ def sparsest(ring: TrigRing, robot: Robot, of: Frame, at: Sequence[Expr] | None)
     joints = moving_joints(robot, of)
     last = min(place(robot, of), robot.n)
     points: list[Frame | None] = list(range(last + 1)) if at is None else [None]
-    best: tuple[tuple[int, int], ScrewMatrix] | None = None
-    for point in points:
-        levers = {i: lever(ring, robot, i, of, at if point is None else point) for i in joints}
-        for frame in range(last + 1):
-            columns = tuple(_column(ring, robot, i, frame, levers[i]) for i in joints)
-            cost = _cost(columns)
-            if best is None or cost < best[0]:
-                best = (cost, ScrewMatrix(columns, frame, point))
-    assert best is not None
-    return best[1]
+    levers = {
+        point: [lever(ring, robot, i, of, at if point is None else point) for i in joints]
+        for point in points
+    }
+    # Short levers make few terms in any frame, so only the best points are tried in all frames.
+    promising = sorted(points, key=lambda point: _cost([arm[:2] for arm in levers[point]]))[:2]
+    matrices = (
+        ScrewMatrix(
+            tuple(
+                _column(ring, robot, i, frame, arm)
+                for i, arm in zip(joints, levers[point], strict=True)
+            ),
+            frame,
+            point,
+        )
+        for point in promising
+        for frame in range(last + 1)
+    )
+    return min(matrices, key=lambda matrix: _cost(matrix.columns))
 
 
 def moving_joints(robot: Robot, of: Frame) -> list[int]:

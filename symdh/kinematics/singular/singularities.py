@@ -25,6 +25,9 @@ from symdh.robot import Robot
 #: Minors past which a Jacobian that is not square is not taken apart.
 MAX_MINORS = 60
 
+#: Terms of a remaining condition, in half angles, past which none is written out.
+MAX_SHOWN = 60
+
 
 @dataclass(frozen=True, slots=True)
 class Factor:
@@ -76,8 +79,10 @@ class Singularities:
     factors : tuple of Factor or None
         None where the polynomials are over the stated limit.
     remaining : tuple of Expr
-        Empty where the factors tell all: the rank drops exactly where one of them vanishes. Else
-        it drops also where all of these vanish together.
+        The rank drops also where all of these vanish together. Empty when there are none, or when
+        they are too long to read.
+    is_complete : bool
+        Whether the factors tell all: the rank drops exactly where one of them vanishes.
     """
 
     robot: Robot
@@ -90,6 +95,7 @@ class Singularities:
     constant: Expr
     factors: tuple[Factor, ...] | None
     remaining: tuple[Expr, ...]
+    is_complete: bool = False
 
     @property
     def is_square(self) -> bool:
@@ -213,19 +219,12 @@ class _Search:
 
     def _smallest(self, cofactors: list[Pieces]) -> list[Pieces]:
         """Drop cofactors that vanish wherever another one does."""
-        moving = [self._moving(each) for each in cofactors]
+        variables = set(self._robot.variables)
         kept: list[Pieces] = []
-        for each in sorted(moving, key=_size):
-            if not any(_is_empty(other - each) for other in kept):
+        for each in sorted((self._half_angles.moving(c, variables) for c in cofactors), key=_size):
+            if not any(other.support <= each.support for other in kept):
                 kept.append(each)
-        return [] if any(_is_empty(each) for each in kept) else kept
-
-    def _moving(self, pieces: Pieces) -> Pieces:
-        """Return the pieces that depend on a joint; lengths are taken not to vanish."""
-        finite = {
-            piece: 1 for piece in pieces.finite if self._half_angles.depends_on(piece, self._names())
-        }
-        return replace(pieces, finite=type(pieces.finite)(finite))
+        return kept if all(each.support for each in kept) else []
 
     def _read(
         self,
@@ -247,16 +246,17 @@ class _Search:
             found.append(Factor(expression, power, variables, solved, meaning))
         order = {variable: k for k, variable in enumerate(self._robot.variables)}
         found.sort(key=lambda f: ([order[v] for v in f.variables], str(f.expression)))
-        rest = tuple(
-            Mul(*(self._short(e)[1] for e, _ in self._half_angles.factors(each)))
-            for each in remaining
-        )
-        return replace(base, constant=constant, factors=tuple(found), remaining=rest)
+        shown = all(each.terms <= MAX_SHOWN for each in remaining)
+        rest = tuple(self._product(each) for each in remaining) if shown else ()
+        factored = replace(base, constant=constant, factors=tuple(found), remaining=rest)
+        return replace(factored, is_complete=not remaining)
+
+    def _product(self, pieces: Pieces) -> Expr:
+        """Return an expression that vanishes where the pieces do, each factor once."""
+        return Mul(*(self._short(factor)[1] for factor, _ in self._half_angles.factors(pieces)))
 
     def _short(self, element: Element) -> tuple[int, Expr]:
-        """Return a sign and a short form with more plus than minus, whose product is the element.
-
-        """
+        """Return a short form, its sign turned so that plus prevails, and that sign before it."""
         expression = short_form(self._ring, self._runs, element)
         minus = sum(1 for term in expression.as_ordered_terms() if term.could_extract_minus_sign())
         total = len(expression.as_ordered_terms())
@@ -295,9 +295,6 @@ class _Search:
             for s in other.free_symbols
         }
         return tuple(v for v in self._robot.variables if v in used)
-
-    def _names(self) -> set[Symbol]:
-        return set(self._robot.variables)
 
     def _generic_point(self, shift: int = 0) -> list[Fraction]:
         """Return rational values of the ring's generators, cosines and sines on the circle."""
@@ -340,10 +337,6 @@ def _rank(matrix: list[list[Fraction]]) -> int:
             rows[r] = [x - ratio * y for x, y in zip(rows[r], rows[rank], strict=True)]
         rank += 1
     return rank
-
-
-def _is_empty(pieces: Pieces) -> bool:
-    return not pieces.finite and not pieces.infinite
 
 
 def _size(pieces: Pieces) -> tuple[int, int]:

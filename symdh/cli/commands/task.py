@@ -1,0 +1,78 @@
+"""``symdh task``: a task vector as a function of the joints, and its derivative."""
+
+from __future__ import annotations
+
+import click
+
+from symdh.cli import arguments, console, files, options, tables
+
+
+@click.command(
+    epilog=options.examples(
+        "symdh task scara.yaml",
+        'symdh task puma560.yaml --vector "x y z zyz"',
+        'symdh task planar_2r.yaml --vector "x y phi" --numeric --set theta1="30 deg"',
+    )
+)
+@options.table_argument
+@click.option(
+    "--vector",
+    metavar="COMPONENTS",
+    help="x, y, z, one of the 12 Euler sequences (zyz, zyx, ...), phi or alpha_z. "
+    "Default: what fits the arm.",
+)
+@click.option("--numeric", is_flag=True, help="Numbers for the values that the table gives.")
+@click.option(
+    "--set",
+    "settings",
+    metavar="NAME=VALUE",
+    multiple=True,
+    help="Value of a symbol, with or without its unit; asks for numbers. Repeatable.",
+)
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["text", "latex", "json"]),
+    default="text",
+    show_default=True,
+    help="Unicode to read, a LaTeX document, or JSON for a program.",
+)
+@options.file_option("standard output")
+@options.force_option
+def task(
+    table: str,
+    vector: str | None,
+    numeric: bool,
+    settings: tuple[str, ...],
+    form: str,
+    output: str | None,
+    force: bool,
+) -> None:
+    """Print a task vector r = f(q) and its derivative, the analytic Jacobian.
+
+    Without --vector the components follow from the arm: a position and one angle where all
+    revolute axes are parallel, else a position with Euler angles.
+    """
+    from symdh.kinematics.task import analytic_jacobian, task_numbers, task_vector
+
+    robot = tables.read_robot(table)
+    values = arguments.assignment(robot, settings)
+    found = analytic_jacobian(task_vector(robot, vector))
+    numbers = task_numbers(found, values) if numeric or settings else None
+    if form == "json":
+        from symdh.render.task_json import task_json
+
+        text = task_json(found, numbers) + "\n"
+    else:
+        from symdh.derivation.task import task_document
+
+        document = task_document(found, numbers, values)
+        if form == "latex":
+            from symdh.render.latex import render_latex
+
+            text = render_latex(document)
+        else:
+            from symdh.render.terminal import render_chapters
+
+            text = render_chapters(document.chapters, width=console.width()) + "\n"
+    files.save(output or "-", text.encode(), force=force)
