@@ -14,6 +14,7 @@ from symdh.derivation.blocks import (
     Entries,
     EntryStep,
     EntrySteps,
+    Fitting,
     MatrixRow,
     NamedMatrix,
     Paragraph,
@@ -41,6 +42,7 @@ PAPERS = {"a4": "a4paper", "letter": "letterpaper"}
 _GAP = 22.0  # \qquad between matrices in a row
 _INDENT = 22.0  # \qquad before a continued line
 _REASON_GAP = 11.0
+_TABLE_ROWS = 40  # of a parameter table on one page
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,8 +147,8 @@ class _Layout:
             case Definitions(entries=entries):
                 rows = [(self._math.text(e.term), self.inline(e.meaning)) for e in entries]
                 return [Item("definitions", rows)]
-            case ParameterTable(header=header, rows=rows, notes=notes):
-                return [Item("table", self._table(header, rows, notes))]
+            case ParameterTable():
+                return list(self._tables(block))
             case NamedMatrix():
                 return [self._named_matrix(block)]
             case MatrixRow(matrices=matrices):
@@ -157,20 +159,30 @@ class _Layout:
                 return self._product(block)
             case Entries(groups=groups):
                 return [self._entries(groups)]
+            case Fitting(whole=whole, otherwise=otherwise):
+                if self._fits(whole):
+                    return [self._named_matrix(whole)]
+                return [item for part in otherwise for item in self.items(part)]
             case PoseResult(whole=whole, explanation=explanation, entries=entries):
                 matrix = [self._named_matrix(whole)] if self._fits(whole) else []
                 told = Item("paragraph", self.inline(explanation))
                 return [*matrix, told, self._entries(entries.groups)]
 
-    def _table(
-        self, header: Sequence[Node], rows: Sequence[Sequence[Node]], notes: Sequence[Text]
-    ) -> dict[str, object]:
-        return {
-            "columns": len(header),
-            "header": " & ".join(f"${self._math.text(node)}$" for node in header),
-            "rows": [" & ".join(f"${self._math.text(node)}$" for node in row) for row in rows],
-            "notes": [self.inline(note) for note in notes],
-        }
+    def _tables(self, block: ParameterTable) -> Iterator[Item]:
+        """Yield the table in parts that fit on a page, the notes below the last."""
+        for first in range(0, len(block.rows), _TABLE_ROWS):
+            rows = block.rows[first : first + _TABLE_ROWS]
+            last = first + _TABLE_ROWS >= len(block.rows)
+            data = {
+                "columns": len(block.header),
+                "header": self._cells(block.header),
+                "rows": [self._cells(row) for row in rows],
+                "notes": [self.inline(note) for note in block.notes] if last else [],
+            }
+            yield Item("table", data)
+
+    def _cells(self, row: Sequence[Node]) -> str:
+        return " & ".join(f"${self._math.text(node)}$" for node in row)
 
     def _display(self, formula: Node) -> list[Line]:
         """Return a formula as aligned lines, a new line before an equality where one is needed."""
@@ -199,7 +211,7 @@ class _Layout:
             return Item("displays", [self._math.text(whole)])
         matrix = joined([self._math.equals(), *self._math.matrix(block.matrix)])
         names = self._math.text(Equation(block.names))
-        return Item("lines", [Line("", names), Line("", r"\quad" + matrix)])
+        return Item("lines", [Line("", names), Line("", r"\quad" + matrix, tied=True)])
 
     def _product(self, block: ProductResult) -> list[Item]:
         """Return a product: the changed entries and the matrix, or all entries in one list."""

@@ -22,6 +22,7 @@ from symdh.notation.nodes import (
     Operator,
     Pi,
     PoseName,
+    Product,
     Rounded,
     Screw,
     Short,
@@ -90,18 +91,18 @@ class LatexWriter(MathWriter):
     def symbol(self, node: Name | Generic | Short) -> Piece:
         """Return a symbol with its subscript and superscript."""
         match node:
-            case Name(text=text, starred=starred):
+            case Name(text=text, starred=starred, dotted=dotted):
                 letter, index = split_name(text)
-                return _symbol(letter, index, r"^{*}" if starred else "")
+                piece = _symbol(letter, index, r"^{*}" if starred else "")
+                return _accented(piece, letter, r"\dot") if dotted else piece
             case Short(function=function, label=label):
                 return _symbol(function, label)
-            case Generic(letter=letter, index=index, stage=stage, hat=hat):
+            case Generic(letter=letter, index=index, stage=stage, hat=hat, dotted=dotted):
                 above = rf"^{{({_script(stage)})}}" if stage else ""
                 piece = _symbol(letter, index, above, len(stage) + 2 if stage else 0)
-                if not hat:
-                    return piece
-                plain = _symbol(letter, "").text
-                return Piece(piece.text.replace(plain, rf"\hat {plain}", 1), piece.width)
+                if hat or dotted:
+                    return _accented(piece, letter, r"\hat" if hat else r"\dot")
+                return piece
 
     def transform(self, node: PoseName | Screw) -> Piece:
         """Return the name of a transform."""
@@ -161,7 +162,10 @@ class LatexWriter(MathWriter):
         return [Piece(rf"\sqrt{{{joined(radicand)}}}", total_width(radicand) + 9.5)]
 
     def call(self, function: str, arguments: Sequence[Node]) -> list[Piece]:
-        """Return a function; a single symbol follows sine and cosine without brackets."""
+        """Return a function; a single symbol follows sine and cosine without brackets.
+
+        So does a number times one: ``cos 2 theta``.
+        """
         if function == "abs":
             inner = self.pieces(arguments[0])
             return [Piece(f"|{joined(inner)}|", total_width(inner) + 6.2)]
@@ -170,7 +174,7 @@ class LatexWriter(MathWriter):
         inner = self.separated(arguments, Piece(",", 5.0))
         whole = total_width(inner)
         first = arguments[0]
-        if function in _TRIGONOMETRIC and not isinstance(first, (Sum, Negative, Fraction)):
+        if function in _TRIGONOMETRIC and _stands_alone(first):
             return [Piece(f"{name} {joined(inner)}", width + whole)]
         return [Piece(f"{name}({joined(inner)})", width + whole + 2 * _BRACKET)]
 
@@ -212,9 +216,28 @@ class LatexWriter(MathWriter):
         """Return the sign of a scalar product."""
         return Piece(r" \cdot ", 7.6)
 
+    def cross(self) -> Piece:
+        """Return the sign of a vector product."""
+        return Piece(r" \times ", 13.4)
+
+    def transpose(self) -> Piece:
+        """Return the mark of a transposed matrix."""
+        return Piece(r"^{\mathsf{T}}", 6.0)
+
     def beside(self) -> Piece:
         """Return the space between transforms."""
         return Piece(r"\, ", _THIN)
+
+
+def _stands_alone(argument: Node) -> bool:
+    """Say whether an argument is read as one without brackets."""
+    match argument:
+        case Product(factors=(Number(), Name() | Generic() | Pi())):
+            return True
+        case Sum() | Negative() | Fraction() | Product() | Call():
+            return False
+        case _:
+            return True
 
 
 def _number_width(text: str) -> float:
@@ -251,6 +274,11 @@ def _symbol(letter: str, index: str, above: str = "", above_length: int = 1) -> 
     below = 4.3 * len(index) + 2.4 * index.count("-") + (0.6 if index else 0)
     raised = 4.3 * above_length if above else 0
     return Piece(text, _letter_width(letter) + max(below, raised))
+
+
+def _accented(piece: Piece, letter: str, accent: str) -> Piece:
+    plain = _letter(letter)
+    return Piece(piece.text.replace(plain, f"{accent} {plain}", 1), piece.width)
 
 
 def _frame(frame: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,6 +9,7 @@ from sympy import Expr
 
 from symdh.kinematics.rotation import Description, RotationResult
 from symdh.notation import Notation, Shorthand
+from symdh.render.json_text import json_text
 from symdh.render.plain_math import PlainWriter
 
 
@@ -37,7 +37,7 @@ def rotation_json(result: RotationResult) -> str:
         "moved": spelt(result.moved),
         **_numbers(result.numbers),
     }
-    return json.dumps(content, indent=2, ensure_ascii=False)
+    return json_text(content)
 
 
 def _numbers(found: Description | None) -> dict[str, Any]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 from sympy import Expr
@@ -16,6 +15,7 @@ from symdh.kinematics.task import (
     TaskNumbers,
 )
 from symdh.notation import Notation, Shorthand
+from symdh.render.json_text import json_text
 from symdh.render.plain_math import PlainWriter
 from symdh.robot import Robot
 
@@ -40,9 +40,7 @@ def task_json(found: AnalyticJacobian, numbers: TaskNumbers | None = None) -> st
         "components": [_name(component) for component in vector.components],
         "vector": [write.component(component) for component in vector.components],
         "variables": [variable.name for variable in vector.robot.variables],
-        "jacobian": [
-            [write(matrix[r, c]) for c in range(matrix.cols)] for r in range(matrix.rows)
-        ],
+        "jacobian": [[write(matrix[r, c]) for c in range(matrix.cols)] for r in range(matrix.rows)],
         "letters": {angle.symbol.name: write.component(angle) for angle in vector.angles},
         "singular_where_zero": None if vanishing is None else write(vanishing),
         "values": None
@@ -52,7 +50,7 @@ def task_json(found: AnalyticJacobian, numbers: TaskNumbers | None = None) -> st
             "jacobian": [list(row) for row in numbers.jacobian],
         },
     }
-    return json.dumps(content, indent=2, ensure_ascii=False)
+    return json_text(content)
 
 
 class _Spelling:

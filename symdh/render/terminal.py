@@ -6,11 +6,13 @@ import textwrap
 from collections.abc import Iterable, Sequence
 
 from symdh.derivation.blocks import (
+    Block,
     Chapter,
     Display,
     Entries,
     EntryStep,
     EntrySteps,
+    Fitting,
     MatrixRow,
     NamedMatrix,
     Paragraph,
@@ -23,7 +25,7 @@ from symdh.derivation.style import Naming, Style
 from symdh.kinematics.forward import has_closed_form, transform
 from symdh.kinematics.frame import Frame
 from symdh.kinematics.numeric import NumericMatrix
-from symdh.notation import break_lines, joined
+from symdh.notation import break_lines, joined, total_width
 from symdh.notation.nodes import Equation, PoseName
 from symdh.render.entries import named_entries
 from symdh.render.unicode_math import UnicodeWriter
@@ -88,16 +90,27 @@ def _entries(steps: Iterable[EntryStep], width: int, lead: str = "") -> list[str
     for step in steps:
         name = _MATH.text(step.name)
         room = max(width - len(name) - 3, 20)
-        broken = break_lines(_MATH.pieces(step.forms[-1]), room, _INDENT)
-        lines.append(f"{lead}{name} = {joined(broken[0])}")
-        gap = " " * (len(name) + 3 + _INDENT)
-        lines += [lead + gap + joined(line).lstrip() for line in broken[1:]]
+        forms = [_MATH.pieces(form) for form in step.forms]
+        whole = [piece for form in forms for piece in (_MATH.equals(), *form)][1:]
+        if len(forms) == 1 or total_width(whole) <= room:
+            forms = [whole]
+        begin = f"{name} = "
+        for form in forms:
+            broken = break_lines(form, room, _INDENT)
+            lines.append(lead + begin + joined(broken[0]))
+            gap = " " * (len(name) + 3 + _INDENT)
+            lines += [lead + gap + joined(line).lstrip() for line in broken[1:]]
+            begin = " " * len(name) + " = "
     return lines
 
 
 def _chapter(chapter: Chapter, width: int) -> str:
-    parts = []
-    for block in chapter.blocks:
+    return "\n\n".join(_blocks(chapter.blocks, width))
+
+
+def _blocks(blocks: Iterable[Block], width: int) -> list[str]:
+    parts: list[str] = []
+    for block in blocks:
         match block:
             case Paragraph():
                 parts.append(_paragraph(block, width))
@@ -109,13 +122,16 @@ def _chapter(chapter: Chapter, width: int) -> str:
                 parts += ["\n".join(_entries(steps, width - 2, "  ")) for steps in groups]
             case NamedMatrix():
                 parts.append(_named_matrix(block, width))
+            case Fitting(whole=whole, otherwise=otherwise):
+                fits = len(_MATH.matrix_lines(whole.matrix)[0]) + 2 <= width
+                parts += _blocks((whole,) if fits else otherwise, width)
             case MatrixRow(matrices=matrices):
                 parts += [_named_matrix(matrix, width) for matrix in matrices]
             case ParameterTable():
                 parts.append(_table(block, width))
             case _:
                 raise TypeError(f"no terminal text for {type(block).__name__}")
-    return "\n\n".join(parts)
+    return parts
 
 
 def _table(block: ParameterTable, width: int) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from symdh.notation import MathWriter, Piece, joined
+from symdh.notation import Piece, joined
 from symdh.notation.names import GREEK, split_name
 from symdh.notation.nodes import (
     Call,
@@ -27,6 +27,7 @@ from symdh.notation.nodes import (
     Unit,
 )
 from symdh.notation.numbers import decimal
+from symdh.render.text_math import TextWriter, text_piece
 from symdh.robot import MotionKind
 
 _SUBSCRIPTS = dict(
@@ -41,49 +42,45 @@ _SUPERSCRIPTS = dict(
 )
 
 
-def _piece(text: str) -> Piece:
-    # A combining hat takes no column of its own.
-    return Piece(text, len(text) - text.count("\u0302"))
-
-
-class UnicodeWriter(MathWriter):
+class UnicodeWriter(TextWriter):
     """Writes formulas for a terminal."""
 
     def quantity(self, node: Number | Rounded | Degrees | Unit | Pi) -> Piece:
         """Return a number, an angle in degrees, a unit or pi."""
         match node:
             case Number(value=value):
-                return _piece(decimal(value))
+                return text_piece(decimal(value))
             case Degrees(value=value):
-                return _piece(f"{decimal(value)}°")
+                return text_piece(f"{decimal(value)}°")
             case Rounded(text=text) | Unit(text=text):
-                return _piece(text)
+                return text_piece(text)
             case Pi():
-                return _piece("π")
+                return text_piece("π")
 
     def symbol(self, node: Name | Generic | Short) -> Piece:
         """Return a symbol with its subscript."""
         match node:
-            case Name(text=text, starred=starred):
+            case Name(text=text, starred=starred, dotted=dotted):
                 letter, index = split_name(text)
-                return _piece(
-                    GREEK.get(letter, letter) + _lowered(index) + ("*" if starred else "")
+                mark = "\u0307" if dotted else ""
+                return text_piece(
+                    GREEK.get(letter, letter) + mark + _lowered(index) + ("*" if starred else "")
                 )
             case Short(function=function, label=label):
-                return _piece(function + _lowered(label))
-            case Generic(letter=letter, index=index, stage=stage, hat=hat):
+                return text_piece(function + _lowered(label))
+            case Generic(letter=letter, index=index, stage=stage, hat=hat, dotted=dotted):
                 above = _raised(f"({stage})") if stage else ""
-                mark = "\u0302" if hat else ""
-                return _piece(GREEK.get(letter, letter) + mark + _lowered(index) + above)
+                mark = "\u0302" if hat else "\u0307" if dotted else ""
+                return text_piece(GREEK.get(letter, letter) + mark + _lowered(index) + above)
 
     def transform(self, node: PoseName | Screw) -> Piece:
         """Return the name of a transform."""
         match node:
             case Screw(axis=axis):
-                return _piece(f"Screw_{axis.name.lower()}")
+                return text_piece(f"Screw_{axis.name.lower()}")
             case PoseName(start=start, end=end, craig=craig):
                 end_text = _lowered(end)
-                return _piece(
+                return text_piece(
                     f"{_raised(start)}{end_text}T" if craig else f"{_raised(start)}T{end_text}"
                 )
 
@@ -95,17 +92,19 @@ class UnicodeWriter(MathWriter):
             head = f"{'R' if turning else 'D'}{axis}("
         else:
             head = f"{'Rot' if turning else 'Trans'}({axis}, "
-        return [_piece(head), *self.pieces(node.amount), _piece(")")]
+        return [text_piece(head), *self.pieces(node.amount), text_piece(")")]
 
     def matrix(self, node: Matrix) -> list[Piece]:
         """Return a matrix on one line; `matrix_lines` writes it in rows."""
         rows = (", ".join(self.text(entry) for entry in row) for row in node.rows)
-        return [_piece("[" + "; ".join(rows) + "]")]
+        return [text_piece("[" + "; ".join(rows) + "]")]
 
     def matrix_lines(self, node: Matrix) -> list[str]:
         """Return a matrix as lines with tall brackets."""
         cells = [[self.text(entry) for entry in row] for row in node.rows]
-        widths = [max(_piece(cell).width for cell in column) for column in zip(*cells, strict=True)]
+        widths = [
+            max(text_piece(cell).width for cell in column) for column in zip(*cells, strict=True)
+        ]
         lines = []
         for number, row in enumerate(cells):
             body = "  ".join(
@@ -115,20 +114,16 @@ class UnicodeWriter(MathWriter):
             lines.append(f"{left} {body} {right}")
         return lines
 
-    def fraction(self, top: Node, bottom: Node) -> list[Piece]:
-        """Return a quotient on one line."""
-        over = self._guarded(top, Sum, Negative)
-        under = self._guarded(bottom, Sum, Negative, Product, Fraction)
-        return [*over, _piece("/"), *under]
-
     def power(self, base: list[Piece], exponent: str, node: Node) -> list[Piece]:
         """Return a power; whole exponents are raised."""
         raised = _raised(exponent) if exponent.isdigit() else f"^({exponent})"
-        return [*base, _piece(raised)]
+        return [*base, text_piece(raised)]
 
     def root(self, radicand: list[Piece]) -> list[Piece]:
-        """Return a square root."""
-        return [_piece("√("), *radicand, _piece(")")]
+        """Return a square root; a plain number needs no brackets."""
+        if len(radicand) == 1 and radicand[0].text.isdigit():
+            return [text_piece("√" + radicand[0].text)]
+        return [text_piece("√("), *radicand, text_piece(")")]
 
     def call(self, function: str, arguments: Sequence[Node]) -> list[Piece]:
         """Return a function; a single symbol follows sine and cosine without brackets."""
@@ -137,49 +132,46 @@ class UnicodeWriter(MathWriter):
         if function in ("sin", "cos", "tan") and not isinstance(
             first, (Sum, Negative, Fraction, Product, Call)
         ):
-            return [_piece(f"{function} {inner}")]
-        return [_piece(f"{function}({inner})")]
+            return [text_piece(f"{function} {inner}")]
+        return [text_piece(f"{function}({inner})")]
 
     def times(self, left: Node, right: Node) -> list[Piece]:
         """Return a space, or a dot between numbers."""
-        return [_piece("·" if isinstance(right, (Number, Rounded, Degrees)) else " ")]
+        return [text_piece("·" if isinstance(right, (Number, Rounded, Degrees)) else " ")]
 
     def brackets(self, height: int) -> tuple[Piece, Piece]:
         """Return round and square brackets in turn."""
-        return (_piece("["), _piece("]")) if height % 2 else (_piece("("), _piece(")"))
-
-    def plus_minus(self, negative: bool) -> Piece:
-        """Return a binary sign."""
-        return _piece(" - " if negative else " + ")
-
-    def sign(self) -> Piece:
-        """Return a leading minus."""
-        return _piece("-")
-
-    def equals(self) -> Piece:
-        """Return an equality sign."""
-        return _piece(" = ")
-
-    def comma(self) -> Piece:
-        """Return a comma between numbers."""
-        return _piece(", ")
+        return (
+            (text_piece("["), text_piece("]")) if height % 2 else (text_piece("("), text_piece(")"))
+        )
 
     def gap(self) -> Piece:
         """Return a comma and a wide space between formulas."""
-        return _piece(",   ")
+        return text_piece(",   ")
 
     def dot(self) -> Piece:
         """Return the sign of a scalar product."""
-        return _piece(" · ")
+        return text_piece(" · ")
+
+    def cross(self) -> Piece:
+        """Return the sign of a vector product."""
+        return text_piece(" × ")
+
+    def transpose(self) -> Piece:
+        """Return the mark of a transposed matrix."""
+        return text_piece("ᵀ")
 
     def beside(self) -> Piece:
         """Return the space between transforms."""
-        return _piece(" ")
+        return text_piece(" ")
 
 
 def _lowered(index: str) -> str:
     if not index:
         return ""
+    if index in ("x", "y", "z"):
+        # Unicode has a small x alone; the three belong together.
+        return f"_{index}"
     if all(character in _SUBSCRIPTS or character == "," for character in index):
         return "".join(_SUBSCRIPTS.get(character, character) for character in index)
     return f"_{index}"
