@@ -412,11 +412,11 @@ def write_all(files: Sequence[GeneratedFile], folder: Path) -> list[Path]:
 # ---------------------------------------------------------------------------------------- names
 
 HOSTILE = """
-    E N Q I S O q p T t0 t1 s1 c1 s12 c12 angle12 r11 px fk np npt sin cos atan2 fabs sqrt pow y0 j1
-    gamma log errno EDOM M_PI PI NAN INFINITY NULL linux unix min max near assert isnan class
+    E N Q I S O q p T J t0 t1 s1 c1 s12 c12 angle12 r11 px fk np npt sin cos atan2 fabs sqrt pow y0
+    gamma log errno EDOM M_PI PI NAN INFINITY NULL linux unix min max near assert isnan class j1
     lambda double int signed and or not xor bool true false None True is in def print abs sum
-    float ValueError N_JOINTS x X a_ a theta template this operator restrict inline self pi2
-    hostile_fk hostile_params numpy
+    float ValueError N_JOINTS x X a_ a theta template this operator restrict inline self pi2 vx1
+    hostile_fk hostile_params numpy jacobian fk_jacobian hostile_jacobian hostile_fk_jacobian wz2
 """
 
 
@@ -634,12 +634,8 @@ def test_c_values_that_are_right_angles_fold() -> None:
     )
     _, source = generate(arm, "c")
     assert "1.57" not in source.text
-    assert sorted(re.findall(r"(?:sin|cos)\(\w+\)", source.text)) == [
-        "cos(q1)",
-        "cos(q2)",
-        "sin(q1)",
-        "sin(q2)",
-    ]
+    calls = set(re.findall(r"(?:sin|cos)\(\w+\)", source.text))
+    assert calls == {"cos(q1)", "cos(q2)", "sin(q1)", "sin(q2)"}
 
 
 def test_c_refuses_a_header_of_another_table(tmp_path: Path) -> None:
@@ -677,7 +673,8 @@ def test_c_prefixes_every_external_symbol(tmp_path: Path) -> None:
     subprocess.run([gcc, "-c", str(source), "-o", str(built)], check=True)
     listed = subprocess.run([nm, "-g", str(built)], check=True, capture_output=True, text=True)
     found = re.findall(r"^\S* +([A-Z]) (\w+)$", listed.stdout, re.MULTILINE)
-    assert [name for kind, name in found if kind != "U"] == ["puma560_fk"]
+    ours = [name for kind, name in found if kind != "U"]
+    assert ours == ["puma560_fk", "puma560_fk_jacobian", "puma560_jacobian"]
     assert {name for kind, name in found if kind == "U"} <= {"sin", "cos", "sincos"}
 
 
@@ -747,7 +744,7 @@ def work(robot: Robot) -> tuple[int, int, int]:
 
 @pytest.mark.parametrize(
     ("robot", "most"),
-    [(PUMA, (40, 20, 12)), (UR5, (38, 22, 12)), (PANDA, (72, 38, 14)), (PLANAR, (4, 3, 4))],
+    [(PUMA, (40, 20, 12)), (UR5, (36, 21, 12)), (PANDA, (68, 36, 14)), (PLANAR, (4, 3, 4))],
     ids=lambda value: value.name if isinstance(value, Robot) else "",
 )
 def test_work_of_known_arms(robot: Robot, most: tuple[int, int, int]) -> None:

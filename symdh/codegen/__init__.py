@@ -17,7 +17,7 @@ __all__ = ["TARGETS", "GeneratedFile", "Target", "generate"]
 
 
 def generate(robot: Robot, target: str) -> tuple[GeneratedFile, ...]:
-    """Generate the forward kinematics of a robot, base to tool, in one language.
+    """Generate pose and Jacobian of a robot, base to tool, in one language.
 
     Parameters
     ----------

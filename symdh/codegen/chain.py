@@ -115,8 +115,8 @@ def levers(chain: Chain) -> list[list[Vector]]:
     -------
     list of list of Vector
         For each run and each of its stations the vector from there to the end of the arm, along
-        the axes at the start of the run. Within a run the arms simply add, ``a_1 c_1 + a_2 c_{12}``,
-        and each sum is a part of the one before it.
+        the axes at the start of the run. Within a run the arms simply add up,
+        ``a_1 c_1 + a_2 c_{12}``, and each sum is a part of the one before it.
     """
     graph = chain.graph
     end: Vector = (graph.zero, graph.zero, graph.zero)

@@ -62,7 +62,11 @@ def rotate(graph: Graph, axis: Axis, cos_sin: CosSin, a: Vector) -> Vector:
 
 def combine(graph: Graph, columns: Columns, a: Vector) -> Vector:
     """Return the columns of an orientation, weighted and added up: a vector turned by it."""
-    parts = [scale(graph, weight, column) for weight, column in zip(a, columns, strict=True)]
+    # Column before weight: the joints nearer to the base are written first, s1 * c23.
+    parts = [
+        vector([graph.mul(entry, weight) for entry in column])
+        for weight, column in zip(a, columns, strict=True)
+    ]
     return reduce(lambda total, part: add(graph, total, part), parts)
 
 

@@ -1,19 +1,25 @@
-"""C99, also valid C++: ``void NAME_fk(const double q[n], double T[16])``, parameters between."""
+"""C99, also valid C++: ``void NAME_fk(const double q[n], double T[16])``, parameters between.
+
+``NAME_jacobian`` fills ``double J[6 * n]``, ``NAME_fk_jacobian`` both.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 
-from sympy import Symbol
+from sympy import Expr, Symbol
 
 from symdh.codegen.environment import render
-from symdh.codegen.facts import Facts, facts_of
+from symdh.codegen.facts import facts_of
 from symdh.codegen.forward import forward_routine
 from symdh.codegen.graph import Op
+from symdh.codegen.jacobian import forward_jacobian_routine, jacobian_routine
 from symdh.codegen.listing import Entry, Listing, Local, write_listing
 from symdh.codegen.literals import literal
 from symdh.codegen.names import Scope, comment_text, file_stem, words
+from symdh.codegen.routine import Routine
 from symdh.codegen.targets import GeneratedFile
 from symdh.robot import Robot
 
@@ -60,31 +66,54 @@ _MACRO_FAMILIES = re.compile(
 )
 
 
+#: What is named after the stem of the files.
+_OWN = ("fk", "jacobian", "fk_jacobian", "params", "N_JOINTS")
+
+#: Longest line of generated code.
+_WIDTH = 100
+
+
+@dataclass(frozen=True, slots=True)
+class _Assignment:
+    """An element of a result and the text that it is set to."""
+
+    place: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Function:
+    """A function: its head without the semicolon, its lines, and the arguments it never reads."""
+
+    head: str
+    locals: tuple[Local, ...]
+    unread: tuple[str, ...]
+    assignments: tuple[_Assignment, ...]
+
+
 def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
     """Generate ``NAME.h`` and ``NAME.c`` (see `symdh.codegen.generate`).
 
-    Parameters that have a value are compiled in; the others are fields of ``NAME_params``.
+    Parameters that have a value are compiled in; the others are fields of ``NAME_params``. C has
+    no empty array, so a robot without joint variables gets no function for its Jacobian.
     """
     known = {s: robot.values[s] for s in robot.parameters if s in robot.values}
-    free = [parameter for parameter in robot.parameters if parameter not in known]
-    # Fields only have to keep clear of keywords and macros; locals hide functions and arguments.
-    stem = file_stem(robot.name)
-    own = {f"{stem}_{name}" for name in ("fk", "params", "N_JOINTS")}
-    fields = Scope(lambda name: name in own or _is_taken(name)).take_symbols(free)
-    scope = Scope(lambda name: name in own or _is_taken_locally(name))
-    symbols = scope.take_symbols([*free, *robot.variables])
-    listing = write_listing(forward_routine(robot, known), _FUNCTIONS, symbols, scope)
+    writer = _Writer(robot, known)
+    functions = {"fk": writer.function("fk", forward_routine(robot, known), {"T": 16})}
+    if robot.variables:
+        size = 6 * len(robot.variables)
+        alone, both = jacobian_routine(robot, known), forward_jacobian_routine(robot, known)
+        functions["jacobian"] = writer.function("jacobian", alone, {"J": size})
+        functions["fk_jacobian"] = writer.function("fk_jacobian", both, {"T": 16, "J": size})
     facts = facts_of(robot)
+    stem = writer.stem
     context = {
         "stem": stem,
         "facts": facts,
         "joint_lines": facts.joint_table("q[{}]"),
         "constants": [f"{comment_text(s.name)} = {literal(known[s])}" for s in known],
-        "fields": [(fields[s], comment_text(s.name)) for s in free],
-        "locals": [*_reads(facts, listing, symbols, fields), *listing.locals],
-        "matrix": _matrix(listing.entries),
-        "reads_q": any(joint.symbol in listing.inputs for joint in facts.joints),
-        "reads_p": any(symbol in listing.inputs for symbol in free),
+        "fields": [(field, comment_text(s.name)) for s, field in writer.fields.items()],
+        "functions": functions,
     }
     return (
         GeneratedFile(f"{stem}.h", render("c/header.h.jinja", **context)),
@@ -92,30 +121,80 @@ def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
     )
 
 
+class _Writer:
+    """Writes the routines of one robot as functions.
+
+    Attributes
+    ----------
+    stem : str
+        What every name with external linkage begins with.
+    fields : dict of Symbol to str
+        The fields of ``NAME_params``.
+    """
+
+    def __init__(self, robot: Robot, known: Mapping[Symbol, Expr]) -> None:
+        self.stem = file_stem(robot.name)
+        self._robot = robot
+        self._own = {f"{self.stem}_{name}" for name in _OWN}
+        free = [parameter for parameter in robot.parameters if parameter not in known]
+        # Fields only have to keep clear of keywords and macros; locals hide functions, arguments.
+        self.fields = Scope(lambda n: n in self._own or _is_taken(n)).take_symbols(free)
+
+    def function(self, name: str, routine: Routine, results: Mapping[str, int]) -> _Function:
+        """Write a routine as a function that fills some arrays, given with their sizes."""
+        scope = Scope(lambda n: n in self._own or _is_taken_locally(n))
+        symbols = scope.take_symbols([*self.fields, *self._robot.variables])
+        listing = write_listing(routine, _FUNCTIONS, symbols, scope)
+        read = {"q": listing.inputs & set(self._robot.variables)}
+        if self.fields:
+            read["p"] = listing.inputs & set(self.fields)
+        return _Function(
+            head=self._head(name, results),
+            # Results are written only after all arguments are read.
+            locals=(*self._reads(listing, symbols), *listing.locals),
+            unread=tuple(argument for argument, found in read.items() if not found),
+            assignments=tuple(
+                _Assignment(f"{matrix}[{place}]", text)
+                for matrix, size in results.items()
+                for place, text in enumerate(_elements(listing.entries, matrix, size))
+            ),
+        )
+
+    def _head(self, name: str, results: Mapping[str, int]) -> str:
+        n = len(self._robot.variables)
+        arguments = [f"const double q[{n}]" if n else "const double *q"]
+        if self.fields:
+            arguments.append(f"const {self.stem}_params *p")
+        arguments += [f"double {matrix}[{size}]" for matrix, size in results.items()]
+        line = f"void {self.stem}_{name}({', '.join(arguments)})"
+        if len(line) < _WIDTH:
+            return line
+        broken = ",\n    ".join(arguments)
+        return f"void {self.stem}_{name}(\n    {broken})"
+
+    def _reads(self, listing: Listing, symbols: Mapping[Symbol, str]) -> Iterator[Local]:
+        places = {symbol: f"q[{place}]" for place, symbol in enumerate(self._robot.variables)}
+        places |= {symbol: f"p->{field}" for symbol, field in self.fields.items()}
+        for symbol, place in places.items():
+            if symbol in listing.inputs:
+                yield Local(symbols[symbol], place)
+
+
+def _elements(entries: Iterable[Entry], matrix: str, size: int) -> list[str]:
+    """Return the elements of a result, row by row; a pose ends in 0 0 0 1."""
+    texts = ["0.0"] * size
+    if matrix == "T":
+        texts[-1] = "1.0"
+    columns = 4 if matrix == "T" else size // 6
+    for entry in entries:
+        if entry.matrix == matrix:
+            texts[columns * entry.row + entry.column] = entry.text
+    return texts
+
+
 def _is_taken(name: str) -> bool:
     return name in _KEYWORDS or name in _MACROS or _MACRO_FAMILIES.fullmatch(name) is not None
 
 
 def _is_taken_locally(name: str) -> bool:
-    return _is_taken(name) or name in {"q", "p", "T", *_FUNCTIONS.values()}
-
-
-def _reads(
-    facts: Facts, listing: Listing, symbols: dict[Symbol, str], fields: dict[Symbol, str]
-) -> list[Local]:
-    """Return the locals that arguments are read into; T is written only after all of them."""
-    places = {joint.symbol: f"q[{place}]" for place, joint in enumerate(facts.joints)}
-    places |= {symbol: f"p->{field}" for symbol, field in fields.items()}
-    return [
-        Local(symbols[symbol], place)
-        for symbol, place in places.items()
-        if symbol in listing.inputs
-    ]
-
-
-def _matrix(entries: Iterable[Entry]) -> list[str]:
-    """Return the 16 entries of the result, row by row."""
-    texts = ["0.0"] * 15 + ["1.0"]
-    for entry in entries:
-        texts[4 * entry.row + entry.column] = entry.text
-    return texts
+    return _is_taken(name) or name in {"q", "p", "T", "J", *_FUNCTIONS.values()}

@@ -49,6 +49,12 @@ _BUILTINS = words(
 #: Names that the template of the module uses itself.
 _OWN = words("fk jacobian fk_jacobian np npt q T J N_JOINTS JOINT_NAMES JOINT_LIMITS")
 
+#: The last two axes of each result; the leading axes are those of ``q``.
+_SHAPES = {"T": "4, 4", "J": "6, N_JOINTS"}
+
+#: The routine of a pose leaves its last row to us: 0 0 0 1.
+_LAST_OF_POSE = Entry("T", 3, 3, "1.0")
+
 _RESERVED = PYTHON_KEYWORDS | _BUILTINS | _OWN
 
 
@@ -63,9 +69,10 @@ class _Parameter:
 
 @dataclass(frozen=True, slots=True)
 class _Body:
-    """The lines of a function: its locals, then the entries of its matrices that are not 0."""
+    """The lines of a function: locals, matrices with their shapes, the entries that are not 0."""
 
     locals: tuple[Local, ...]
+    matrices: tuple[tuple[str, str], ...]
     entries: tuple[Entry, ...]
 
 
@@ -91,9 +98,9 @@ def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
         required=[parameter for parameter in parameters if parameter.default is None],
         joint_names=[f'"{joint.name}"' for joint in facts.joints],
         joint_limits=[_limits(joint.limits) for joint in facts.joints],
-        fk=_body(robot, forward_routine(robot)),
-        jacobian=_body(robot, jacobian_routine(robot)),
-        fk_jacobian=_body(robot, forward_jacobian_routine(robot)),
+        fk=_body(robot, forward_routine(robot), "T"),
+        jacobian=_body(robot, jacobian_routine(robot), "J"),
+        fk_jacobian=_body(robot, forward_jacobian_routine(robot), "T", "J"),
     )
     return (GeneratedFile(f"{stem}.py", text),)
 
@@ -107,7 +114,7 @@ def _symbol_names(scope: Scope, robot: Robot) -> dict[Symbol, str]:
     return scope.take_symbols([*robot.parameters, *robot.variables])
 
 
-def _body(robot: Robot, routine: Routine) -> _Body:
+def _body(robot: Robot, routine: Routine, *matrices: str) -> _Body:
     scope = _scope()
     names = _symbol_names(scope, robot)
     listing = write_listing(routine, _FUNCTIONS, names, scope)
@@ -116,9 +123,11 @@ def _body(robot: Robot, routine: Routine) -> _Body:
         for place, variable in enumerate(robot.variables)
         if variable in listing.inputs
     )
+    entries = tuple(entry for entry in listing.entries if entry.text != "0.0")
     return _Body(
         locals=(*reads, *listing.locals),
-        entries=tuple(entry for entry in listing.entries if entry.text != "0.0"),
+        matrices=tuple((matrix, _SHAPES[matrix]) for matrix in matrices),
+        entries=(*entries, _LAST_OF_POSE) if "T" in matrices else entries,
     )
 
 
