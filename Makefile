@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed-for-development
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check golden bench clean
+.PHONY: help run test check golden bench vendor clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 16
@@ -28,6 +28,9 @@ golden: $(STAMP) ## renew the golden files; look at the difference before commit
 
 bench: $(STAMP) ## measure against sympy's own simplify and bare imports
 	$(BIN)/python tests/bench.py
+
+vendor: ## renew the vendored KaTeX from npm (KATEX=0.19.1 for one version)
+	python3 tools/vendor_katex.py $(KATEX)
 
 clean: ## remove everything that make made
 	rm -rf $(VENV) out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

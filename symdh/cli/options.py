@@ -49,15 +49,19 @@ def notation_option(function: F) -> F:
     )(function)
 
 
-def document_options(function: F) -> F:
-    """Add --order, --notation and --paper."""
-    order = click.option(
+def order_option(function: F) -> F:
+    """Add --order."""
+    return click.option(
         "--order",
         type=click.Choice(["right", "left"]),
         default="right",
         show_default=True,
         help="End of the chain that the products begin at.",
-    )
+    )(function)
+
+
+def document_options(function: F) -> F:
+    """Add --order, --notation and --paper."""
     paper = click.option(
         "--paper",
         type=click.Choice(["a4", "letter"]),
@@ -65,7 +69,7 @@ def document_options(function: F) -> F:
         show_default=True,
         help="Paper of the handout.",
     )
-    return order(notation_option(paper(function)))
+    return order_option(notation_option(paper(function)))
 
 
 def preamble_option(function: F) -> F:

@@ -19,7 +19,7 @@ class Identity(Enum):
     COSINE_OF_DIFFERENCE = "cosine of a difference"
     SINE_OF_DIFFERENCE = "sine of a difference"
     ANGLE_SUMS = "angle sums, like terms collected"
-    SQUARES = "sin² + cos² = 1"
+    SQUARES = "squares of sine and cosine add to one"
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,6 +138,14 @@ class PoseResult:
     entries: Entries
 
 
+@dataclass(frozen=True, slots=True)
+class Fitting:
+    """A named matrix where it fits on a line, else what says the same in less width."""
+
+    whole: NamedMatrix
+    otherwise: tuple[Block, ...]
+
+
 Block = (
     Paragraph
     | Definitions
@@ -149,6 +157,7 @@ Block = (
     | ProductResult
     | Entries
     | PoseResult
+    | Fitting
 )
 
 

@@ -23,3 +23,15 @@ def latex_environment() -> Environment:
         keep_trailing_newline=True,
         autoescape=False,  # TeX has no use for HTML escapes; text is escaped by `latex_text`
     )
+
+
+def html_environment() -> Environment:
+    """Return the environment for the web page; every text is escaped unless marked as markup."""
+    return Environment(
+        loader=FileSystemLoader(templates_dir() / "html"),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=True,
+    )

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from symdh.derivation.blocks import Document
 from symdh.render.latex import render_latex
+from symdh.render.page.page import render_page
+from symdh.robot import Robot
 
 
 @dataclass(frozen=True)
@@ -18,12 +21,15 @@ class Format:
     extension : str
         With its dot.
     render : callable
-        ``render(document, paper=...)`` returns the text.
+        ``render(document, robot, paper)`` returns the text.
     """
 
     name: str
     extension: str
-    render: Callable[..., str]
+    render: Callable[[Document, Robot, str], str]
 
 
-FORMATS = (Format("latex", ".tex", render_latex),)
+FORMATS = (
+    Format("latex", ".tex", lambda document, _, paper: render_latex(document, paper=paper)),
+    Format("html", ".html", lambda document, robot, _: render_page(document, robot)),
+)

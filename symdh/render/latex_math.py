@@ -278,7 +278,8 @@ def _symbol(letter: str, index: str, above: str = "", above_length: int = 1) -> 
 
 def _accented(piece: Piece, letter: str, accent: str) -> Piece:
     plain = _letter(letter)
-    return Piece(piece.text.replace(plain, f"{accent} {plain}", 1), piece.width)
+    under = f"{{{plain}}}" if "{" in plain else f" {plain}"
+    return Piece(piece.text.replace(plain, accent + under, 1), piece.width)
 
 
 def _frame(frame: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 
 from symdh.notation.names import GREEK
@@ -23,11 +24,6 @@ _ESCAPED = {
     '"': r"\textquotedbl{}",
     "'": r"\textquotesingle{}",
     "`": r"\textasciigrave{}",
-    # A pair of braces keeps neighbours from becoming a ligature: two hyphens stay two hyphens.
-    "-": "-{}",
-    ",": ",{}",
-    "?": "?{}",
-    "!": "!{}",
     "–": "--",
     "—": "---",
     "’": r"\textquoteright{}",
@@ -41,7 +37,10 @@ _ESCAPED = {
     "µ": r"\textmu{}",
     "×": r"\texttimes{}",
     "\u00a0": "~",
+    "\0": "{}",  # stands for nothing; see latex_text
 }
+#: Of the letters with and without accents up to ž, those that the fonts do not have.
+_LACKING = "ĦħĸĿŀŉŦŧ"
 _GREEK_LETTERS = {letter: name for name, letter in GREEK.items()}
 
 
@@ -49,9 +48,12 @@ def latex_text(text: str) -> str:
     """Escape text for LaTeX with T1 fonts.
 
     Letters that these fonts lack are printed without their accents where they have any, else by
-    their code, so that every title compiles.
+    their code, and so are control characters, so that every title compiles. White space of any
+    kind is a space.
     """
-    return "".join(_character(character) for character in text)
+    # A pair of braces keeps twins from becoming a ligature: two hyphens stay two hyphens.
+    apart = re.sub(r"([-,])(?=\1)", "\\1\0", text)
+    return "".join(_character(character) for character in apart)
 
 
 def _character(character: str) -> str:
@@ -60,8 +62,11 @@ def _character(character: str) -> str:
     if character in _GREEK_LETTERS:
         name = _GREEK_LETTERS[character]
         return "o" if name == "omicron" else rf"\ensuremath{{\{name}}}"
-    if ord(character) < 128 or "\u00c0" <= character <= "\u017e":
+    accented = "\u00c0" <= character <= "\u017e" and character not in _LACKING
+    if " " <= character <= "~" or accented:
         return character
+    if character.isspace():
+        return " "
     base = unicodedata.normalize("NFKD", character)[0]
     if ord(base) < 128 and base.isalnum():
         return base

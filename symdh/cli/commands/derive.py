@@ -60,7 +60,7 @@ def _everything(stem: str, robot: Robot, document: Document, paper: str) -> dict
     from symdh.render.formats import FORMATS
 
     contents = {
-        f"{stem}{form.extension}": form.render(document, paper=paper).encode() for form in FORMATS
+        f"{stem}{form.extension}": form.render(document, robot, paper).encode() for form in FORMATS
     }
     for target in TARGETS:
         for file in generate(robot, target.name):

@@ -1,0 +1,1 @@
+"""The web page: one file that needs nothing else."""

@@ -1,0 +1,51 @@
+"""Document and robot -> one web page that works offline: formulas, contents, the arm to move."""
+
+from __future__ import annotations
+
+from markupsafe import Markup, escape
+
+from symdh._version import __version__
+from symdh.derivation.blocks import Document
+from symdh.kinematics.frame import first_frame, last_frame
+from symdh.render.environment import html_environment
+from symdh.render.layout import Layout
+from symdh.render.page.arm import arm_script
+from symdh.render.page.katex import katex_script, katex_style
+from symdh.resources import templates_dir
+from symdh.robot import Robot
+
+
+def render_page(document: Document, robot: Robot) -> str:
+    """Write a document with its robot as a web page.
+
+    Returns
+    -------
+    str
+        HTML with script, style and fonts inside; it requests nothing.
+    """
+    layout = Layout(lambda text: str(escape(text)), _inline_formula)
+    template = html_environment().get_template("page.html.jinja")
+    return template.render(
+        title=document.title,
+        subtitle=Markup(layout.inline(document.subtitle)),
+        chapters=[
+            (chapter.title, [item for block in chapter.blocks for item in layout.items(block)])
+            for chapter in document.chapters
+        ],
+        pose_name=f"pose of frame {last_frame(robot)} in frame {first_frame(robot)}",
+        version=__version__,
+        katex_style=Markup(katex_style()),
+        katex_script=Markup(katex_script()),
+        style=Markup(_asset("page.css")),
+        typeset_script=Markup(_asset("typeset.js")),
+        arm=Markup(arm_script(robot)),
+        view_script=Markup(_asset("view.js")),
+    )
+
+
+def _inline_formula(formula: str) -> str:
+    return f'<span class="formula" data-tex="{escape(formula)}">{escape(formula)}</span>'
+
+
+def _asset(name: str) -> str:
+    return (templates_dir() / "html" / name).read_text(encoding="utf-8")
