@@ -93,13 +93,14 @@ def test_a_frame_is_read_from_text(text: str, frame: Frame) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["4", "-1", "", "tools", "1.0", "+1", "1e0", "٣", "²", "99999999999", "0x1", "None"]
+    "text",
+    ["4", "-1", "", "tools", "1.0", "+1", "1e0", "٣", "²", "99999999999", "0x1", "None", "1\n2"],
 )
 def test_a_frame_that_is_not_there_is_named_with_those_that_are(text: str) -> None:
     with pytest.raises(UnsupportedError) as caught:
         frame_from_text(both_ends()[0], text)
     assert "both_ends has base, 0 to 3, tool" in str(caught.value)
-    assert (repr(text) if not text.isdecimal() else text.lstrip("0")) in str(caught.value)
+    assert "there is no frame" in str(caught.value)
 
 
 @pytest.mark.parametrize("frame", [-1, 4, True, False, 1.0, "1", "Base", None, (), Integer(1)])
@@ -158,17 +159,21 @@ def value_at(robot: symdh.Robot, matrix: ImmutableMatrix) -> np.ndarray:
     return np.array(matrix.xreplace(known).evalf(30).tolist(), dtype=float)
 
 
+def seen_from_zero(arm: Arm) -> dict[Frame, np.ndarray]:
+    """Return the oracle's pose of every frame in frame 0."""
+    poses: dict[Frame, np.ndarray] = {i: arm.pose(POINT, 0, i) for i in (0, 1, 2, 3)}
+    poses["base"] = np.linalg.inv(np.array(arm.pose(POINT, "base", 0), dtype=float))
+    poses["tool"] = arm.pose(POINT, 0, "tool")
+    return {frame: np.array(pose, dtype=float) for frame, pose in poses.items()}
+
+
 @both_conventions
 @pytest.mark.parametrize("start", ["base", 0, 1, 2, 3, "tool"])
 def test_every_transform_agrees_with_the_oracle(convention: str, start: Frame) -> None:
     robot, arm = both_ends(convention)
-    frames: list[Frame] = ["base", 0, 1, 2, 3, "tool"]
-    for end in frames:
+    for end in seen_from_zero(arm):
         exact = value_at(robot, transform(robot, start, end))
-        if frames.index(start) <= frames.index(end):
-            expected = arm.pose(POINT, start, end)
-        else:
-            expected = np.linalg.inv(np.array(arm.pose(POINT, end, start), dtype=float))
+        expected = np.linalg.inv(seen_from_zero(arm)[start]) @ seen_from_zero(arm)[end]
         assert np.abs(exact - expected).max() < 1e-14
 
 
@@ -324,7 +329,7 @@ def test_symbols_without_a_value_are_all_named() -> None:
         pose(robot, "base", "tool", {})
     assert str(caught.value).startswith("q2, theta1, theta3 have no value")
     assert "--set q2=NUMBER" in str(caught.value)
-    with pytest.raises(UnsupportedError, match="^theta3 has no value"):
+    with pytest.raises(UnsupportedError, match=r"^theta3 has no value"):
         pose(robot, 2, 3, {})
 
 
@@ -341,17 +346,16 @@ def test_names_are_listed_by_number_not_by_letter() -> None:
         )
 
 
-@pytest.mark.parametrize(("length", "word"), [("1/k", "zoo"), ("sqrt(k)", "I")])
-def test_values_that_make_no_real_length_are_refused(length: str, word: str) -> None:
+@pytest.mark.parametrize(("length", "at_four", "bad"), [("1/k", 0.25, 0), ("sqrt(k)", 2.0, -1)])
+def test_values_that_make_no_real_length_are_refused(length: str, at_four: float, bad: int) -> None:
     robot = symdh.loads(
         "name: arm\nconvention: standard\njoints:\n"
         f"  - {{theta: theta1, d: 0, a: {length}, alpha: 0}}\n"
     )
     (t1,), (k,) = robot.variables, robot.parameters
-    assert pose(robot, 0, 1, {t1: Integer(0), k: Integer(4)})[0][3] in (0.25, 2.0)
-    bad = Integer(0) if word == "zoo" else Integer(-1)
+    assert pose(robot, 0, 1, {t1: Integer(0), k: Integer(4)})[0][3] == at_four
     with pytest.raises(UnsupportedError, match="not a real number"):
-        pose(robot, 0, 1, {t1: Integer(0), k: bad})
+        pose(robot, 0, 1, {t1: Integer(0), k: Integer(bad)})
 
 
 # -- size -----------------------------------------------------------------------------------------

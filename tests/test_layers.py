@@ -13,9 +13,10 @@ PACKAGE = ROOT / "symdh"
 
 #: From left to right; a part imports itself and layers to its left.
 LAYERS = (
-    {"errors", "robot", "resources", "_version"},
+    {"errors", "robot", "mechanism", "resources", "_version"},
     {"table", "motion"},
-    {"kinematics", "frames"},
+    {"kinematics"},
+    {"frames"},
     {"notation"},
     {"derivation", "codegen"},
     {"render"},

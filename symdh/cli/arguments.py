@@ -24,6 +24,19 @@ def assignment(robot: Robot, settings: tuple[str, ...]) -> dict[Symbol, Expr]:
     return dict(parse_setting(robot, as_utf8(text)) for text in settings)
 
 
+def point(robot: Robot, text: str | None) -> tuple[Expr, Expr, Expr] | None:
+    """Read ``x,y,z``; None where nothing is said.
+
+    Raises
+    ------
+    TableError
+        When the text is no point.
+    """
+    from symdh.table import parse_point
+
+    return None if text is None else parse_point(robot, as_utf8(text))
+
+
 def as_utf8(argument: str) -> str:
     """Decode an argument as UTF-8 also where the locale claims that there is nothing but ASCII."""
     return os.fsencode(argument).decode("utf-8", errors="replace")

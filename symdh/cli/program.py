@@ -11,9 +11,13 @@ from symdh._version import __version__
 from symdh.cli.commands.check import check
 from symdh.cli.commands.code import code
 from symdh.cli.commands.completion import completion
+from symdh.cli.commands.convert import convert
 from symdh.cli.commands.derive import derive
 from symdh.cli.commands.evaluate import evaluate
+from symdh.cli.commands.frames import frames
+from symdh.cli.commands.html import html
 from symdh.cli.commands.init import init
+from symdh.cli.commands.jacobian import jacobian, singular
 from symdh.cli.commands.latex import latex
 from symdh.cli.commands.pdf import pdf
 from symdh.cli.commands.rotate import rotate
@@ -22,7 +26,24 @@ from symdh.cli.commands.task import task
 from symdh.cli.options import examples
 
 #: In the order in which a newcomer meets them.
-COMMANDS = (init, check, derive, show, evaluate, task, rotate, latex, pdf, code, completion)
+COMMANDS = (
+    init,
+    check,
+    derive,
+    show,
+    evaluate,
+    jacobian,
+    singular,
+    task,
+    rotate,
+    frames,
+    convert,
+    latex,
+    html,
+    pdf,
+    code,
+    completion,
+)
 
 
 class Program(click.Group):

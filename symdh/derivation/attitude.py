@@ -68,7 +68,7 @@ _SQUARES = Equation(
 _PRODUCTS = Equation((Generic("r", "ij"), Product((_TWO, _K_I, _K_J))))
 
 #: What there is to read in a formula with the entries put in, beyond which it says nothing.
-_LONGEST = 40
+_LONGEST = 16
 
 _NEAR = 1e-6
 
@@ -140,7 +140,13 @@ def _euler_chapter(attitude: Attitude, sequences: Sequence[EulerSequence]) -> Ch
                 "Three rotations about the axes of the moving body, in the order in which they "
                 "stand; about the fixed axes the same three in the opposite order. ",
                 *("Here ", PHI, ", ", THETA, ", ", PSI, " are the first, second and third angle "),
-                *("of each product, and ", Generic("r", "ij"), " the entries of ", Generic("R"), "."),
+                *(
+                    "of each product, and ",
+                    Generic("r", "ij"),
+                    " the entries of ",
+                    Generic("R"),
+                    ".",
+                ),
             )
         )
     ]
@@ -247,7 +253,11 @@ def _nearly_degenerate(sequence: EulerSequence) -> Paragraph:
 def _other_solution(attitude: Attitude, found: EulerAngles) -> Paragraph:
     other = Tuple(tuple(attitude.angle(angle) for angle in found.other))
     return Paragraph(
-        ("The same rotation with the other sign of the root: ", Equation((Tuple(NAMES), other)), ".")
+        (
+            "The same rotation with the other sign of the root: ",
+            Equation((Tuple(NAMES), other)),
+            ".",
+        )
     )
 
 
@@ -277,7 +287,12 @@ def _all_sequences(attitude: Attitude, numbers: Description) -> list[Block]:
             singular.append(found)
     notes: list[Text] = [
         (
-            *(Generic(each.sequence.name.upper()), " is degenerate here: ", PHI, " is set to zero; "),
+            *(
+                Generic(each.sequence.name.upper()),
+                " is degenerate here: ",
+                PHI,
+                " is set to zero; ",
+            ),
             *("only ", _sum(each.sequence.remaining_sign(each.second)), " is determined."),
         )
         for each in singular
@@ -294,7 +309,7 @@ def _axis_angle(attitude: Attitude) -> list[Block]:
     root = sqrt(sum((d**2 for d in differences), Integer(0)))
     trace = _R[0, 0] + _R[1, 1] + _R[2, 2] - 1
     write = attitude.style.notation.write
-    forms = [Call("atan2", (write(root), write(trace)))]
+    forms: list[Node] = [Call("atan2", (write(root), write(trace)))]
     if attitude.numbers is not None:
         forms.append(attitude.angle(attitude.numbers.axis_angle.angle))
     blocks: list[Block] = [EntrySteps((EntryStep(angle, tuple(forms), None),))]
@@ -303,7 +318,7 @@ def _axis_angle(attitude: Attitude) -> list[Block]:
     found = attitude.numbers.axis_angle if attitude.numbers else None
     usual = found is not None and found.axis is not None and not found.either
     for letter, difference in zip("xyz", differences, strict=True):
-        parts = [Fraction(write(difference), twice)]
+        parts: list[Node] = [Fraction(write(difference), twice)]
         if usual and found is not None and found.axis is not None:
             parts.append(attitude.number(found.axis["xyz".index(letter)]))
         steps.append(EntryStep(Generic("k", letter), tuple(parts), None))

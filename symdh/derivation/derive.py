@@ -2,10 +2,23 @@
 
 from __future__ import annotations
 
-from symdh.derivation import general, links, meaning, numbers, products, recursion, result, table
+from symdh.derivation import (
+    general,
+    links,
+    meaning,
+    numbers,
+    products,
+    recursion,
+    result,
+    singularity,
+    table,
+    velocity,
+)
 from symdh.derivation.blocks import Document, Text
 from symdh.derivation.style import Naming, Order, Style
 from symdh.kinematics.forward import forward_kinematics
+from symdh.kinematics.singular import singularities
+from symdh.kinematics.velocity import has_closed_jacobian
 from symdh.robot import Convention, Robot
 
 _CONVENTION = {
@@ -44,6 +57,12 @@ def derive(
         chapters.append(recursion.chapter(style, forward.start, forward.end))
     else:
         chapters += [products.chapter(style, forward), result.chapter(style, forward)]
+    if robot.variables and has_closed_jacobian(robot, forward.end, forward.start):
+        known = [style.notation.matrix(m) for m in (*forward.links, forward.pose) if m is not None]
+        motion = velocity.readable_jacobian(style, forward.start, forward.end)
+        lost = singularities(robot)
+        chapters.append(velocity.chapter(style, motion, known))
+        chapters.append(singularity.chapter(style, lost, known))
     figures = numbers.chapter(style, forward)
     if figures is not None:
         chapters.append(figures)

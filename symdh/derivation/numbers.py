@@ -23,6 +23,7 @@ from symdh.notation.nodes import (
     Call,
     Equation,
     Matrix,
+    Name,
     Negative,
     Node,
     Number,
@@ -124,12 +125,16 @@ def _angle_sums(style: Style, forward: ForwardKinematics) -> tuple[str | Node, .
 
 
 class _Angles:
-    """Puts known joint angles into short forms: c_{12} becomes cos 105 deg."""
+    """Puts known angles in: c_{12} becomes cos 105 deg, and cos alpha_1 becomes cos 90 deg."""
 
     def __init__(self, style: Style) -> None:
         self._style = style
+        turning = angles(style.robot)
+        self._values = {s.name: v for s, v in style.robot.values.items() if s in turning}
 
     def put_in(self, leaf: Node) -> Node:
+        if isinstance(leaf, Name) and leaf.text in self._values:
+            return self._style.figures.angle(self._values[leaf.text])
         if not isinstance(leaf, Short):
             return leaf
         notation = self._style.notation

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+
 from sympy import Expr, Integer
 
 from symdh.derivation.attitude import Attitude, chapters
@@ -175,11 +176,14 @@ def _deviation(result: RotationResult) -> float:
 def _point(
     style: Style, result: RotationResult, point: Sequence[Expr], moved: Sequence[Expr]
 ) -> Chapter:
-    before = Tuple(tuple(style.notation.write(x) for x in point))
+    # Decimal where the point was typed so: 0.1, not a tenth.
+    typed = any(x.is_Rational and not x.is_Integer for x in point)
+    notation = style.figures if typed else style.notation
+    before = Tuple(tuple(notation.write(x) for x in point))
     p, unit = Generic("p"), result.robot.units.length
     steps = []
     for axis, exact in zip("xyz", moved, strict=True):
-        forms = [style.notation.write(exact)]
+        forms = [notation.write(exact)]
         number = exact.xreplace(dict(result.robot.values))
         if not number.free_symbols and not exact.is_Integer:
             forms.append(Rounded(figures(_float(number))))
@@ -188,7 +192,10 @@ def _point(
         steps.append(EntryStep(Generic("p", axis), tuple(forms), None))
     lead: Text = (
         *("In the body the point is at ", before, " for good, and so it was in the fixed frame "),
-        *("before the first rotation. Afterwards it is at ", Equation((p, Juxtaposed((R, before))))),
+        *(
+            "before the first rotation. Afterwards it is at ",
+            Equation((p, Juxtaposed((R, before)))),
+        ),
         " in the fixed frame:",
     )
     return Chapter("The point", (Paragraph(lead), EntrySteps(tuple(steps))))

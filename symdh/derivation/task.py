@@ -36,22 +36,29 @@ from symdh.kinematics.task import (
 )
 from symdh.notation.nodes import (
     Equation,
+    Fraction,
     Generic,
     Juxtaposed,
     Matrix,
     Name,
+    Negative,
     Node,
     Number,
     Power,
     Product,
     Rounded,
+    Sum,
     Tuple,
     Unit,
 )
 from symdh.notation.numbers import figures
+from symdh.notation.writing import weight
 
 _J, _B, _J_O = Generic("J"), Generic("B"), Generic("J", "O")
 _ZERO = Number(Integer(0))
+
+#: What there is to read in a numerator that still fits a line of paper.
+_LONGEST = 22
 
 
 def task_document(
@@ -214,12 +221,61 @@ def _jacobian(style: Style, found: AnalyticJacobian) -> Chapter:
     ]
     if vector.sequence is not None:
         blocks += _rates(style, found)
-    written = style.notation.matrix(found.matrix)
-    blocks.append(NamedMatrix((_J,), written))
-    introduced = legend(style, [written])
-    if introduced is not None:
-        blocks.append(introduced)
+    blocks += _matrix(style, found)
     return Chapter("The analytic Jacobian", tuple(blocks))
+
+
+def _matrix(style: Style, found: AnalyticJacobian) -> list[Block]:
+    """Return J whole; with rates of Euler angles in it, its entries that are not zero."""
+    vector = found.vector
+    if vector.is_read_off:
+        written = style.notation.matrix(found.matrix)
+        introduced = legend(style, [written], _exact_forms(style, vector))
+        return [NamedMatrix((_J,), written), *([introduced] if introduced else [])]
+    entries = {
+        (r, c): style.notation.write(found.matrix[r, c])
+        for c in range(found.matrix.cols)
+        for r in range(found.matrix.rows)
+        if not found.matrix[r, c].is_zero
+    }
+    note = "The other entries are zero."
+    if max(_longest_fraction(entry) for entry in entries.values()) > _LONGEST:
+        note = (
+            "The other entries of these rows are zero. Those of the angles would fill pages "
+            "multiplied out; they are the products of the two matrices above."
+        )
+        angles = {r for r, c in enumerate(vector.components) if not isinstance(c, Coordinate)}
+        entries = {place: entry for place, entry in entries.items() if place[0] not in angles}
+    between = "," if found.matrix.cols > 9 else ""
+    steps = tuple(
+        EntryStep(Generic("J", f"{r + 1}{between}{c + 1}"), (entry,), None)
+        for (r, c), entry in entries.items()
+    )
+    introduced = legend(style, entries.values(), _exact_forms(style, vector))
+    told = [introduced] if introduced else []
+    return [*told, *([EntrySteps(steps)] if steps else []), Paragraph((note,))]
+
+
+def _longest_fraction(node: Node) -> int:
+    """Return how much there is to read in the longest quotient of an entry: it cannot be broken."""
+    match node:
+        case Fraction(numerator=top):
+            return weight(top)
+        case Sum(terms=parts) | Product(factors=parts):
+            return max(_longest_fraction(part) for part in parts)
+        case Negative(node=inner):
+            return _longest_fraction(inner)
+        case _:
+            return 0
+
+
+def _exact_forms(style: Style, vector: TaskVector) -> list[Node]:
+    """Return the formulas that the chapter before has printed."""
+    shown = [c.angle if isinstance(c, Heading) else c.value for c in vector.components]
+    forms = [style.notation.write(value) for value in shown if isinstance(value, Expr)]
+    if vector.sequence is not None and not vector.is_read_off:
+        forms += [style.notation.write(entry) for entry in vector.orientation]
+    return forms
 
 
 def _rates(style: Style, found: AnalyticJacobian) -> list[Block]:
@@ -275,8 +331,8 @@ def _singular(style: Style, vector: TaskVector) -> Text:
     entry = Generic("r", f"{sequence.first + 1}{sequence.third + 1}")
     return (
         *(_B, " is singular where ", Equation((written, _ZERO)), ", that is where ", entry),
-        " is 1 or -1: there the representation fails though the arm may move freely, and the "
-        "analytic Jacobian does not exist.",
+        " is 1 or -1: there the representation fails though the arm may move freely. No rates of "
+        "the angles make a rotation about the line that is square to all three axes.",
     )
 
 

@@ -48,10 +48,14 @@ class Pi:
 
 @dataclass(frozen=True, slots=True)
 class Name:
-    """A symbol of the table, by its canonical name; `starred` marks a joint variable in a table."""
+    """A symbol of the table, by its canonical name.
+
+    `starred` marks a joint variable in a table, `dotted` the rate of one.
+    """
 
     text: str
     starred: bool = False
+    dotted: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,13 +63,14 @@ class Generic:
     """A symbol of a general formula: a letter with a running index (alpha_{i-1}, r_{31}, p_x).
 
     `stage` is a superscript in brackets that tells the steps of a recursion apart; `hat` marks
-    the direction of an axis.
+    the direction of an axis, `dotted` a rate.
     """
 
     letter: str
     index: str = ""
     stage: str = ""
     hat: bool = False
+    dotted: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,6 +192,21 @@ class Dot:
 
 
 @dataclass(frozen=True, slots=True)
+class Cross:
+    """The vector product of two vectors."""
+
+    left: Node
+    right: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Transposed:
+    """The transpose of a matrix that has a name."""
+
+    matrix: Node
+
+
+@dataclass(frozen=True, slots=True)
 class Tuple:
     """Numbers that belong together: ``(r_{11}, r_{21})``."""
 
@@ -223,6 +243,8 @@ Node = (
     | Juxtaposed
     | Equation
     | Dot
+    | Cross
+    | Transposed
     | Tuple
     | Listed
 )
@@ -259,6 +281,10 @@ def mapped(node: Node, change: Callable[[Node], Node]) -> Node:
             return Equation(each(sides))
         case Dot(left=left, right=right):
             return Dot(mapped(left, change), mapped(right, change))
+        case Cross(left=left, right=right):
+            return Cross(mapped(left, change), mapped(right, change))
+        case Transposed(matrix=matrix):
+            return Transposed(mapped(matrix, change))
         case Tuple(items=items):
             return Tuple(each(items))
         case Listed(items=items):

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 from symdh.notation.nodes import (
     Call,
+    Cross,
     Degrees,
     Dot,
     Equation,
@@ -34,6 +35,7 @@ from symdh.notation.nodes import (
     Screw,
     Short,
     Sum,
+    Transposed,
     Tuple,
     Unit,
 )
@@ -90,7 +92,7 @@ class MathWriter(ABC):
             case Call(function=function, arguments=arguments):
                 return self.call(function, arguments)
             case Juxtaposed(items=items):
-                return self.separated(items, self.beside())
+                return self.separated(items, replace(self.beside(), depth=0))
             case Equation(sides=sides):
                 return self.separated(sides, self.equals())
             case Tuple(items=items):
@@ -100,6 +102,10 @@ class MathWriter(ABC):
                 return self.separated(items, self.gap())
             case Dot(left=left, right=right):
                 return self.separated((left, right), self.dot())
+            case Cross(left=left, right=right):
+                return [*self._guarded(left, Sum), self.cross(), *self._guarded(right, Sum)]
+            case Transposed(matrix=matrix):
+                return [*self.pieces(matrix), self.transpose()]
             case _:
                 return self.leaf(node)
 
@@ -224,6 +230,14 @@ class MathWriter(ABC):
     @abstractmethod
     def dot(self) -> Piece:
         """Return the sign of a scalar product."""
+
+    @abstractmethod
+    def cross(self) -> Piece:
+        """Return the sign of a vector product."""
+
+    @abstractmethod
+    def transpose(self) -> Piece:
+        """Return the mark of a transposed matrix."""
 
     @abstractmethod
     def beside(self) -> Piece:

@@ -98,22 +98,26 @@ class Notation:
         return written[0] if len(written) == 1 else Sum(tuple(written))
 
     def angle(self, expression: Expr) -> Node:
-        """Write an angle; its constant part in degrees where they are used: ``q_1 + 90 deg``."""
-        if not self._degrees:
-            return self.write(expression)
+        """Write an angle; its constant part last, in degrees where they are used: ``q + 90 deg``.
+
+        A minus in front moves back where there is a positive term to lead: ``90 deg - q``.
+        """
         constant, rest = expression.as_independent(*expression.free_symbols, as_Add=True)
         if not expression.free_symbols:
             constant, rest = expression, Integer(0)
-        degrees = constant * 180 / pi
-        if not degrees.is_Rational:
-            return self.write(expression)
-        parts = [] if rest.is_zero else [self.write(rest)]
-        if not degrees.is_zero:
-            node = Degrees(abs(degrees))
-            parts.append(Negative(node) if degrees.is_negative else node)
+        parts = [] if rest.is_zero else _terms(self.write(rest))
+        parts += [] if constant.is_zero else _terms(self._constant_angle(constant))
         if not parts:
             return Number(Integer(0))
-        return parts[0] if len(parts) == 1 else Sum(tuple(parts))
+        return parts[0] if len(parts) == 1 else Sum(tuple(_positive_first(parts)))
+
+    def _constant_angle(self, constant: Expr) -> Node:
+        degrees = constant * 180 / pi
+        # A seventh of a turn has no tidy number of degrees; it stays a fraction of pi.
+        if not (self._degrees and degrees.is_Rational and is_decimal(degrees)):
+            return self.write(constant)
+        node = Degrees(abs(degrees))
+        return Negative(node) if degrees.is_negative else node
 
     def _signed(self, e: Expr) -> tuple[bool, Node]:
         """Return a node without an outer minus, and whether it had one."""
@@ -256,6 +260,10 @@ def _positive_first(terms: list[Node]) -> list[Node]:
     """Move the first positive term to the front, if there is one; the others keep their order."""
     lead = next((i for i, term in enumerate(terms) if not isinstance(term, Negative)), 0)
     return [*terms[lead : lead + 1], *terms[:lead], *terms[lead + 1 :]]
+
+
+def _terms(node: Node) -> list[Node]:
+    return list(node.terms) if isinstance(node, Sum) else [node]
 
 
 def is_decimal(value: Rational) -> bool:

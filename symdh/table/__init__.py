@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from symdh.table.expression import parse_expression, parse_quantity
+from symdh.table.point import parse_point
 from symdh.table.reader import LoadedTable, read_table
 from symdh.table.setting import parse_setting
 from symdh.table.source import decode, from_text, read_source
@@ -17,6 +18,7 @@ __all__ = [
     "load_table",
     "loads_table",
     "parse_expression",
+    "parse_point",
     "parse_quantity",
     "parse_setting",
     "symbol_dimension",

@@ -1,8 +1,8 @@
 """Rotations one after another, a matrix and a point, from a YAML file or the command line.
 
-    units: {angle: deg, length: m}
-    rotations: [Rx(45) body, Ry(60) body, Rz(90) fixed]
-    point: [1, 2, 3]
+units: {angle: deg, length: m}
+rotations: [Rx(45) body, Ry(60) body, Rz(90) fixed]
+point: [1, 2, 3]
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ class RotationSheet:
     rotations: tuple[GivenRotation, ...] = ()
     matrix: tuple[Expr, ...] | None = None
     point: tuple[Expr, ...] | None = None
-    units: Units = Units()
+    units: Units = NO_UNITS
     values: Mapping[Symbol, Expr] = field(default_factory=dict)
     title: str | None = None
     warnings: tuple[Diagnostic, ...] = ()
@@ -150,9 +150,7 @@ def parse_matrix(text: str, name: str = "--matrix") -> tuple[Expr, ...]:
     return _parse_list(text, name, "matrix", NUMBER, 9)
 
 
-def parse_point(
-    text: str, units: Units = NO_UNITS, name: str = "--point"
-) -> tuple[Expr, ...]:
+def parse_point(text: str, units: Units = NO_UNITS, name: str = "--point") -> tuple[Expr, ...]:
     """Read three coordinates: ``1,2,3`` or ``a_x, a_y, 0``; see `parse_matrix`."""
     return _parse_list(text, name, "point", LENGTH, 3, units)
 
@@ -215,9 +213,7 @@ def _read_rotations(
     return tuple(found), cells
 
 
-def _rotations_of(
-    node: ScalarNode, reader: CellReader
-) -> Iterator[tuple[GivenRotation, Cell]]:
+def _rotations_of(node: ScalarNode, reader: CellReader) -> Iterator[tuple[GivenRotation, Cell]]:
     """Read the rotations of one text: each an axis, an angle, and whose axis it is."""
     text = node.text
     offset = _after_gap(text, 0)

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING
 
 import click
 
-from symdh.cli import console, options, tables
+from symdh.cli import arguments, console, options, tables
 
 if TYPE_CHECKING:
-    from sympy import Expr, Symbol
-
-    from symdh.robot import Robot
+    pass
 
 
 @click.command(
@@ -53,18 +50,6 @@ def evaluate(
 
     robot = tables.read_robot(table)
     first, last = tables.frames_between(robot, start, end)
-    matrix = pose(robot, first, last, _assignment(robot, settings))
+    matrix = pose(robot, first, last, arguments.assignment(robot, settings))
     show = eval_json if form == "json" else render_numbers
     console.print_result(show(first, last, matrix))
-
-
-def _assignment(robot: Robot, settings: tuple[str, ...]) -> dict[Symbol, Expr]:
-    """Read ``name=value`` texts."""
-    from symdh.table import parse_setting
-
-    return dict(parse_setting(robot, _as_utf8(text)) for text in settings)
-
-
-def _as_utf8(argument: str) -> str:
-    """Decode an argument as UTF-8 also where the locale claims that there is nothing but ASCII."""
-    return os.fsencode(argument).decode("utf-8", errors="replace")

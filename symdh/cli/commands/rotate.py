@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from symdh.cli import arguments, console, files, options, tables
+from symdh.cli import arguments, console, files, options, patience, tables
 
 if TYPE_CHECKING:
     from symdh.kinematics.rotation import EulerSequence, RotationResult
@@ -95,11 +95,14 @@ def rotate(
     if table is None and (start is not None or end is not None):
         raise click.UsageError("--from and --to need --table.")
     wanted = _sequences(sequences)
-    if table is not None:
-        found = _from_table(table, start, end, point, settings, symbolic)
-    else:
-        found = _from_sheet(_sheet(rotations, matrix, point), settings, symbolic, tolerance)
-    files.save(output or "-", _text(found, wanted, form).encode(), force=force)
+    with patience.telling("composing"):
+        if table is not None:
+            found = _from_table(table, start, end, point, settings, symbolic)
+        else:
+            sheet = _sheet(rotations, matrix, point)
+            found = _from_sheet(sheet, settings, symbolic, tolerance)
+        text = _text(found, wanted, form)
+    files.save(output or "-", text.encode(), force=force)
 
 
 def _sequences(names: tuple[str, ...]) -> tuple[EulerSequence, ...]:

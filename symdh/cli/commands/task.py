@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
-from symdh.cli import arguments, console, files, options, tables
+from symdh.cli import arguments, console, files, options, patience, tables
+
+if TYPE_CHECKING:
+    from sympy import Expr, Symbol
+
+    from symdh.kinematics.task import AnalyticJacobian, TaskNumbers
 
 
 @click.command(
@@ -57,22 +64,30 @@ def task(
 
     robot = tables.read_robot(table)
     values = arguments.assignment(robot, settings)
-    found = analytic_jacobian(task_vector(robot, vector))
-    numbers = task_numbers(found, values) if numeric or settings else None
+    with patience.telling(f"deriving the task vector of {robot.name}"):
+        found = analytic_jacobian(task_vector(robot, vector))
+        numbers = task_numbers(found, values) if numeric or settings else None
+        text = _text(found, numbers, values, form)
+    files.save(output or "-", text.encode(), force=force)
+
+
+def _text(
+    found: AnalyticJacobian,
+    numbers: TaskNumbers | None,
+    values: dict[Symbol, Expr],
+    form: str,
+) -> str:
     if form == "json":
         from symdh.render.task_json import task_json
 
-        text = task_json(found, numbers) + "\n"
-    else:
-        from symdh.derivation.task import task_document
+        return task_json(found, numbers) + "\n"
+    from symdh.derivation.task import task_document
 
-        document = task_document(found, numbers, values)
-        if form == "latex":
-            from symdh.render.latex import render_latex
+    document = task_document(found, numbers, values)
+    if form == "latex":
+        from symdh.render.latex import render_latex
 
-            text = render_latex(document)
-        else:
-            from symdh.render.terminal import render_chapters
+        return render_latex(document)
+    from symdh.render.terminal import render_chapters
 
-            text = render_chapters(document.chapters, width=console.width()) + "\n"
-    files.save(output or "-", text.encode(), force=force)
+    return render_chapters(document.chapters, width=console.width()) + "\n"

@@ -40,7 +40,8 @@ def axis_angle(rotation: Rotation) -> AxisAngle:
     """
     whole = quaternion(rotation)
     sine = sqrt(sum(part * part for part in whole.vector))
-    angle = 2 * atan2(sine, whole.w)
+    # At a half turn rounding may leave w below zero.
+    angle = 2 * atan2(sine, abs(whole.w))
     if sine < _NO_AXIS:
         return AxisAngle(0.0, None, False)
     x, y, z = (part / sine for part in whole.vector)

@@ -107,9 +107,7 @@ def _polar(rows: Sequence[Sequence[float]]) -> Rotation:
         columns = [[row[k] for row in matrix] for k in range(3)]
         volume = _determinant(columns)
         crossed = [_cross(columns[(k + 1) % 3], columns[(k + 2) % 3]) for k in range(3)]
-        mean = [
-            [(matrix[r][k] + crossed[k][r] / volume) / 2 for k in range(3)] for r in range(3)
-        ]
+        mean = [[(matrix[r][k] + crossed[k][r] / volume) / 2 for k in range(3)] for r in range(3)]
         before = change
         change = max(abs(mean[r][k] - matrix[r][k]) for r in range(3) for k in range(3))
         if change >= before:  # nothing but rounding is left

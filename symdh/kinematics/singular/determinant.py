@@ -5,17 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from symdh.kinematics.singular.trig_ring import Element, TrigRing
+from symdh.kinematics.singular.trig_ring import Element, TooLargeError, TrigRing
 
 Matrix = Sequence[Sequence[Element]]
 
 #: Terms of a polynomial past which a determinant is given up: its factors would not be found in
 #: reasonable time, and nobody would read them.
 MAX_TERMS = 3000
-
-
-class TooLargeError(Exception):
-    """A polynomial has grown past `MAX_TERMS`."""
 
 
 def factored_determinant(ring: TrigRing, matrix: Matrix) -> list[Element]:
@@ -79,7 +75,5 @@ def _expanded(
                 if len(wider[bigger]) > MAX_TERMS:
                     raise TooLargeError
         minors = wider
-    swapped = sum(
-        1 for i, c in enumerate(order) for later in order[i + 1 :] if c > later
-    )
+    swapped = sum(1 for i, c in enumerate(order) for later in order[i + 1 :] if c > later)
     return minors.get(tuple(sorted(rows)), ring.constant(0)) * (-1) ** swapped

@@ -10,9 +10,10 @@ A factor may then be half of one: t and the point at infinity together make ``s_
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import reduce
+from functools import cache, partial, reduce
+from typing import Any
 
 from sympy import Dummy, Symbol
 from sympy.polys.domains import QQ
@@ -20,6 +21,8 @@ from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
 from symdh.kinematics.singular.trig_ring import Element, TrigRing
+
+Powers = tuple[int, ...]
 
 #: Terms of a polynomial past which it is no longer taken apart; it then stays one factor.
 MAX_TERMS = 600
@@ -118,20 +121,14 @@ class HalfAngles:
     def _numerator(self, factor: Element) -> tuple[Element, list[int]]:
         """Return the numerator in half angles, and how often 1 + t_k^2 stands below it."""
         gens, n = self.ring.gens, self.count
-        degrees = [
-            max(powers[2 * k] + powers[2 * k + 1] for powers in factor) for k in range(n)
-        ]
-        total = self.ring.zero
-        for powers, coefficient in factor.terms():
-            rest = {(0,) * n + tuple(powers[2 * n :]): coefficient}
-            term = self.ring.from_dict(rest) if self.trig.others else self.ring(coefficient)
-            for k in range(n):
-                c, s = powers[2 * k], powers[2 * k + 1]
-                if degrees[k]:
-                    square = gens[k] ** 2
-                    filler = (1 + square) ** (degrees[k] - c - s)
-                    term = term * (1 - square) ** c * (2 * gens[k]) ** s * filler
-            total = total + term
+        degrees = [max(powers[2 * k] + powers[2 * k + 1] for powers in factor) for k in range(n)]
+        # Exponents of all cosines and sines, then of all t, then of the rest.
+        wide = {(*p[: 2 * n], *(0,) * n, *p[2 * n :]): c for p, c in factor.terms()}
+        for k, degree in enumerate(degrees):
+            if degree:
+                image = partial(_in_half_angle, degree)
+                wide = _exchanged(wide, (2 * k, 2 * k + 1), (2 * n + k,), image)
+        total = self.ring.from_dict(_narrowed(self.ring, wide, 2 * n))
         for k in range(n):
             while degrees[k]:
                 quotient, rest = divmod(total, 1 + gens[k] ** 2)
@@ -148,14 +145,15 @@ class HalfAngles:
         if len(polynomial) > MAX_TERMS:
             yield _normal(polynomial)
             return
-        for k in used:
+        linear = [k for k in used if _degree(polynomial, k) == 1]
+        for k in linear[:1] or used:
             content = _content(polynomial, k)
             if not content.is_ground:
                 yield from self._split(content)
                 yield from self._split(polynomial.exquo(content))
                 return
         # Linear in something, and without a factor that is free of it: it cannot be a product.
-        if any(_degree(polynomial, k) == 1 for k in used):
+        if linear:
             yield _normal(polynomial)
             return
         for factor, power in polynomial.factor_list()[1]:
@@ -222,22 +220,68 @@ class HalfAngles:
 
     def _read_back(self, piece: Element, infinite: dict[int, int]) -> Element:
         """Return a piece of even degrees as a primitive trigonometric polynomial."""
-        gens, n = self.trig.ring.gens, self.count
+        n = self.count
         halves = [(_degree(piece, k) + infinite.get(k, 0)) // 2 for k in range(n)]
-        total = self.trig.ring.zero
-        for powers, coefficient in piece.terms():
-            term = self.trig.ring.from_dict({(0,) * (2 * n) + tuple(powers[n:]): coefficient})
-            for k in range(n):
-                if halves[k]:
-                    term = term * self._over_squares(gens[2 * k], gens[2 * k + 1], powers[k], halves[k])
-            total = total + term
+        wide = {(*p[:n], *(0,) * 2 * n, *p[n:]): c for p, c in piece.terms()}
+        for k, half in enumerate(halves):
+            if half:
+                image = partial(_in_whole_angle, half)
+                wide = _exchanged(wide, (k,), (n + 2 * k, n + 2 * k + 1), image)
+        total = self.trig.ring.from_dict(_narrowed(self.trig.ring, wide, n))
         return _normal(self.trig.reduced(total).primitive()[1])
 
-    def _over_squares(self, c: Element, s: Element, power: int, half: int) -> Element:
-        """Return ``t^power / (1 + t^2)^half`` in cosine and sine, up to a factor 2^half."""
-        sines = min(power, 2 * half - power)
-        above = (power - sines) // 2
-        return s**sines * (1 - c) ** above * (1 + c) ** (half - sines - above)
+
+def _exchanged(
+    terms: Mapping[Powers, Any],
+    taken: Powers,
+    given: Powers,
+    image: Callable[..., Mapping[Powers, int]],
+) -> dict[Powers, Any]:
+    """Replace the powers at the places `taken` by their image, a polynomial at `given`."""
+    result: dict[Powers, Any] = {}
+    for powers, coefficient in terms.items():
+        exponents = list(powers)
+        for place in taken:
+            exponents[place] = 0
+        for new, factor in image(*(powers[place] for place in taken)).items():
+            for place, exponent in zip(given, new, strict=True):
+                exponents[place] = exponent
+            key = tuple(exponents)
+            result[key] = result.get(key, 0) + coefficient * factor
+    return {powers: coefficient for powers, coefficient in result.items() if coefficient}
+
+
+def _narrowed(ring: PolyRing, terms: Mapping[Powers, Any], skip: int) -> dict[Powers, Any]:
+    """Drop exponents that have all become zero; a ring without symbols has one generator."""
+    return {powers[skip:] or (0,) * ring.ngens: c for powers, c in terms.items()}
+
+
+@cache
+def _in_half_angle(degree: int, c: int, s: int) -> dict[Powers, int]:
+    """Return ``(1 - t^2)^c (2t)^s (1 + t^2)^(degree - c - s)`` by powers of t."""
+    coefficients = [1]
+    for factor in [(1, 0, -1)] * c + [(0, 2)] * s + [(1, 0, 1)] * (degree - c - s):
+        coefficients = _convolved(coefficients, factor)
+    return {(power,): value for power, value in enumerate(coefficients) if value}
+
+
+@cache
+def _in_whole_angle(half: int, power: int) -> dict[Powers, int]:
+    """Return ``t^power / (1 + t^2)^half`` in cosine and sine, up to a factor 2^half."""
+    sines = min(power, 2 * half - power)
+    above = (power - sines) // 2
+    coefficients = [1]
+    for factor in [(1, -1)] * above + [(1, 1)] * (half - sines - above):
+        coefficients = _convolved(coefficients, factor)
+    return {(c, sines): value for c, value in enumerate(coefficients) if value}
+
+
+def _convolved(first: Sequence[int], second: Sequence[int]) -> list[int]:
+    product = [0] * (len(first) + len(second) - 1)
+    for i, x in enumerate(first):
+        for j, y in enumerate(second):
+            product[i + j] += x * y
+    return product
 
 
 def _degree(element: Element, k: int) -> int:

@@ -16,7 +16,6 @@ from symdh.kinematics.singular.trig_ring import Element, Vector
 from symdh.kinematics.velocity import axis_frame
 from symdh.robot import JointType, Robot
 
-
 #: Terms of a volume past which it is not compared: no factor with a name is so long.
 MAX_VOLUME = 60
 
@@ -58,9 +57,7 @@ class Meanings:
         self._half_angles = half_angles
         self._ring = half_angles.trig
         self._robot = robot
-        self._turning = [
-            i for i in joints if robot.joints[i - 1].type is JointType.REVOLUTE
-        ]
+        self._turning = [i for i in joints if robot.joints[i - 1].type is JointType.REVOLUTE]
 
     def of(self, factor: Element) -> Meaning | None:
         """Return what a factor of joint angles means.

@@ -53,7 +53,7 @@ def sparsest(ring: TrigRing, robot: Robot, of: Frame, at: Sequence[Expr] | None)
     last = min(place(robot, of), robot.n)
     points: list[Frame | None] = list(range(last + 1)) if at is None else [None]
     levers = {
-        point: [lever(ring, robot, i, of, at if point is None else point) for i in joints]
+        point: [lever(ring, robot, i, of, point if at is None else at) for i in joints]
         for point in points
     }
     # Short levers make few terms in any frame, so only the best points are tried in all frames.
@@ -80,11 +80,13 @@ def moving_joints(robot: Robot, of: Frame) -> list[int]:
 
 
 def lever(
-    ring: TrigRing, robot: Robot, i: int, of: Frame, point: Frame | Sequence[Expr]
+    ring: TrigRing, robot: Robot, i: int, of: Frame, point: Frame | Sequence[Expr] | None
 ) -> Vector:
     """Return a point in the axis frame of joint `i`: the origin of a frame, or a point of `of`."""
     start = axis_frame(robot, i)
-    if isinstance(point, (int, str)):
+    if point is None:
+        word = chain_word(robot, start, of)
+    elif point == "base" or point == "tool" or isinstance(point, int):
         word = chain_word(robot, start, point)
     else:
         word = chain_word(robot, start, of) + _offset(point)

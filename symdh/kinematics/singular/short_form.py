@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
+from typing import Any
 
-from sympy import Add, Expr, Integer, Mul, Rational, cos, sin
+from sympy import Add, Expr, Mul, Rational, cos, sin
 
 from symdh.kinematics.singular.screws import direction
 from symdh.kinematics.singular.trig_ring import Element, TrigRing
@@ -26,7 +27,7 @@ Terms = dict[Expr, Rational]
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """Revolute joints whose axes are parallel: places in `TrigRing.angles`, and each one's sense."""
+    """Revolute joints with parallel axes: places in `TrigRing.angles`, and each one's sense."""
 
     angles: tuple[int, ...]
     senses: tuple[int, ...]
@@ -90,11 +91,9 @@ def _same_direction(ring: TrigRing, robot: Robot, first: int, second: int) -> in
     return 0
 
 
-def _grouped(
-    ring: TrigRing, element: Element, inside: set[int]
-) -> dict[tuple[int, ...], Element]:
+def _grouped(ring: TrigRing, element: Element, inside: set[int]) -> dict[tuple[int, ...], Element]:
     """Group the terms of an element by what stands outside the generators `inside`."""
-    groups: dict[tuple[int, ...], dict[tuple[int, ...], object]] = {}
+    groups: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
     for powers, coefficient in element.terms():
         outer = tuple(0 if g in inside else p for g, p in enumerate(powers))
         inner = tuple(p if g in inside else 0 for g, p in enumerate(powers))
@@ -102,7 +101,7 @@ def _grouped(
     return {outer: ring.ring.from_dict(part) for outer, part in groups.items()}
 
 
-def _shortest(ring: TrigRing, run: Run, part: Element) -> dict[Expr, object]:
+def _shortest(ring: TrigRing, run: Run, part: Element) -> dict[Expr, Any]:
     """Return a polynomial in the angles of a run as functions with rational coefficients."""
     candidates = [_functions(ring, part, dict(zip(run.angles, _own(ring, run), strict=True)))]
     if len(part) > 1:
@@ -118,9 +117,7 @@ def _own(ring: TrigRing, run: Run) -> list[Expr]:
     return [ring.angles[k] for k in run.angles]
 
 
-def _functions(
-    ring: TrigRing, part: Element, angles: Mapping[int, Expr]
-) -> dict[Expr, object]:
+def _functions(ring: TrigRing, part: Element, angles: Mapping[int, Expr]) -> dict[Expr, Any]:
     """Return the monomials of an element as products of functions of the given angles."""
     return {
         Mul(
@@ -149,7 +146,7 @@ def _bases(count: int) -> Iterator[tuple[tuple[int, int], ...]]:
 
 def _in_basis(
     ring: TrigRing, run: Run, part: Element, basis: tuple[tuple[int, int], ...]
-) -> dict[Expr, object]:
+) -> dict[Expr, Any]:
     """Rewrite a polynomial in the sums of a basis, which take the places of the joint angles."""
     slots = dict(zip(basis, run.angles, strict=True))
     gens = ring.ring.gens
@@ -185,12 +182,12 @@ def _path(
     return paths[end]
 
 
-def _single_functions(ring: TrigRing, run: Run, part: Element) -> dict[Expr, object] | None:
+def _single_functions(ring: TrigRing, run: Run, part: Element) -> dict[Expr, Any] | None:
     """Return a polynomial as a sum of single cosines and sines, None where one has 2 theta in it.
 
     ``cos x cos y = (cos(x - y) + cos(x + y))/2`` and its like, once for each factor.
     """
-    total: dict[tuple[tuple[int, ...], str], object] = {}
+    total: dict[tuple[tuple[int, ...], str], Any] = {}
     for powers, coefficient in part.terms():
         sums = {((0,) * len(run.angles), "c"): coefficient}
         for position, k in enumerate(run.angles):
@@ -199,7 +196,7 @@ def _single_functions(ring: TrigRing, run: Run, part: Element) -> dict[Expr, obj
                     sums = _times_function(sums, position, kind)
         for key, value in sums.items():
             total[key] = total.get(key, 0) + value
-    result: dict[Expr, object] = {}
+    result: dict[Expr, Any] = {}
     for (frequencies, kind), value in total.items():
         if not value:
             continue
@@ -215,10 +212,10 @@ def _single_functions(ring: TrigRing, run: Run, part: Element) -> dict[Expr, obj
 
 
 def _times_function(
-    sums: Mapping[tuple[tuple[int, ...], str], object], position: int, kind: str
-) -> dict[tuple[tuple[int, ...], str], object]:
+    sums: Mapping[tuple[tuple[int, ...], str], Any], position: int, kind: str
+) -> dict[tuple[tuple[int, ...], str], Any]:
     """Multiply a sum of cosines and sines by the cosine or sine of one angle."""
-    product: dict[tuple[tuple[int, ...], str], object] = {}
+    product: dict[tuple[tuple[int, ...], str], Any] = {}
     for (frequencies, own), value in sums.items():
         for step in (1, -1):
             moved = list(frequencies)

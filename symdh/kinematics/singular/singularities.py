@@ -8,17 +8,18 @@ from fractions import Fraction
 from itertools import combinations
 from math import comb
 
-from sympy import Expr, Integer, Mul, Rational, Symbol, prime
+from sympy import Expr, Integer, Mul, Rational, Symbol, cos, sin
 
 from symdh.errors import DerivationError, UnsupportedError
 from symdh.kinematics.frame import Frame, checked, last_frame
-from symdh.kinematics.singular.determinant import TooLargeError, factored_determinant
+from symdh.kinematics.singular.conditions import alternatives
+from symdh.kinematics.singular.determinant import factored_determinant
 from symdh.kinematics.singular.factors import HalfAngles, Pieces
 from symdh.kinematics.singular.naming import Meaning, Meanings
 from symdh.kinematics.singular.screws import ScrewMatrix, moving_joints, sparsest
 from symdh.kinematics.singular.short_form import parallel_runs, short_form
 from symdh.kinematics.singular.solving import joint_angles, zeros
-from symdh.kinematics.singular.trig_ring import Element, TrigRing
+from symdh.kinematics.singular.trig_ring import Element, TooLargeError, TrigRing
 from symdh.kinematics.velocity import ORIGIN
 from symdh.robot import Robot
 
@@ -78,11 +79,11 @@ class Singularities:
         What stands before the factors: a number and lengths.
     factors : tuple of Factor or None
         None where the polynomials are over the stated limit.
-    remaining : tuple of Expr
-        The rank drops also where all of these vanish together. Empty when there are none, or when
-        they are too long to read.
+    remaining : tuple of tuple of Expr
+        Where the factors do not tell all: the rank drops also where all expressions of one of
+        these vanish together.
     is_complete : bool
-        Whether the factors tell all: the rank drops exactly where one of them vanishes.
+        Whether factors and `remaining` tell all. False where there is more, too long to write.
     """
 
     robot: Robot
@@ -94,7 +95,7 @@ class Singularities:
     rank: int
     constant: Expr
     factors: tuple[Factor, ...] | None
-    remaining: tuple[Expr, ...]
+    remaining: tuple[tuple[Expr, ...], ...]
     is_complete: bool = False
 
     @property
@@ -183,8 +184,8 @@ class _Search:
 
     def rank(self, matrix: ScrewMatrix, rows: Sequence[int]) -> int:
         """Return the rank at a generic pose, exactly, by rational numbers put in."""
-        point = self._generic_point()
-        numbers = [[_value(column[r], point) for column in matrix.columns] for r in rows]
+        point = self._ring.generic_point()
+        numbers = [[self._ring.value(column[r], point) for column in matrix.columns] for r in rows]
         return _rank(numbers)
 
     def factored(self, base: Singularities, matrix: ScrewMatrix) -> Singularities:
@@ -246,14 +247,23 @@ class _Search:
             found.append(Factor(expression, power, variables, solved, meaning))
         order = {variable: k for k, variable in enumerate(self._robot.variables)}
         found.sort(key=lambda f: ([order[v] for v in f.variables], str(f.expression)))
-        shown = all(each.terms <= MAX_SHOWN for each in remaining)
-        rest = tuple(self._product(each) for each in remaining) if shown else ()
-        factored = replace(base, constant=constant, factors=tuple(found), remaining=rest)
-        return replace(factored, is_complete=not remaining)
+        factored = replace(base, constant=constant, factors=tuple(found))
+        return self._with_rest(factored, remaining, [element for element, _ in factors])
 
-    def _product(self, pieces: Pieces) -> Expr:
-        """Return an expression that vanishes where the pieces do, each factor once."""
-        return Mul(*(self._short(factor)[1] for factor, _ in self._half_angles.factors(pieces)))
+    def _with_rest(
+        self, base: Singularities, remaining: list[Pieces], covered: list[Element]
+    ) -> Singularities:
+        """Add where all that is left of the minors vanishes together."""
+        if any(each.terms > MAX_SHOWN for each in remaining):
+            return base
+        products = [[f for f, _ in self._half_angles.factors(each)] for each in remaining]
+        try:
+            found = alternatives(self._ring, products, covered) if products else []
+        except TooLargeError:
+            return base
+        written = (tuple(sorted((self._short(f)[1] for f in each), key=str)) for each in found)
+        rest = tuple(each for each in written if _is_possible(each))
+        return replace(base, remaining=rest, is_complete=True)
 
     def _short(self, element: Element) -> tuple[int, Expr]:
         """Return a short form, its sign turned so that plus prevails, and that sign before it."""
@@ -273,12 +283,12 @@ class _Search:
         """
         ratios = set()
         for shift in (0, 5):
-            point = self._generic_point(shift)
+            point = self._ring.generic_point(shift)
             ratio = Fraction(1)
             for element in minor:
-                ratio *= _value(element, point)
+                ratio *= self._ring.value(element, point)
             for element, power in factors:
-                ratio /= _value(element, point) ** power
+                ratio /= self._ring.value(element, point) ** power
             ratios.add(ratio)
         if len(ratios) != 1:
             raise DerivationError(f"the factors of {self._robot.name} do not make its determinant")
@@ -286,7 +296,9 @@ class _Search:
         return Rational(ratio.numerator, ratio.denominator)
 
     def _variables(self, element: Element) -> tuple[Symbol, ...]:
-        used = {s for k in joint_angles(self._ring, element) for s in self._ring.angles[k].free_symbols}
+        used = {
+            s for k in joint_angles(self._ring, element) for s in self._ring.angles[k].free_symbols
+        }
         start = 2 * len(self._ring.angles)
         used |= {
             s
@@ -296,31 +308,15 @@ class _Search:
         }
         return tuple(v for v in self._robot.variables if v in used)
 
-    def _generic_point(self, shift: int = 0) -> list[Fraction]:
-        """Return rational values of the ring's generators, cosines and sines on the circle."""
-        values: list[Fraction] = []
-        for k in range(len(self._ring.angles)):
-            t = Fraction(int(prime(11 + 3 * k + shift)), int(prime(23 + 5 * k + shift)))
-            values += [(1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)]
-        values += [
-            Fraction(int(prime(31 + 2 * k + shift)), 7) for k in range(len(self._ring.others))
-        ]
-        return values or [Fraction(1)]
-
 
 def _rows(matrix: ScrewMatrix, rows: Sequence[int]) -> tuple[int, ...]:
     return tuple(r for r in rows if any(column[r] for column in matrix.columns))
 
 
-def _value(element: Element, point: list[Fraction]) -> Fraction:
-    total = Fraction(0)
-    for powers, coefficient in element.terms():
-        term = Fraction(int(coefficient.numerator), int(coefficient.denominator))
-        for value, power in zip(point, powers, strict=True):
-            if power:
-                term *= value**power
-        total += term
-    return total
+def _is_possible(expressions: tuple[Expr, ...]) -> bool:
+    """Say whether no angle is asked for a cosine and a sine that both vanish."""
+    cosines = {e.args[0] for e in expressions if isinstance(e, cos)}
+    return not any(isinstance(e, sin) and e.args[0] in cosines for e in expressions)
 
 
 def _rank(matrix: list[list[Fraction]]) -> int:

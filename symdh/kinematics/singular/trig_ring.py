@@ -7,21 +7,39 @@ and products are exact and cheap. The relation ``s^2 + c^2 = 1`` is applied afte
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from sympy import Add, Dummy, Expr, Integer, Mul, Pow, Rational, Symbol, cos, default_sort_key, sin
+from sympy import (
+    Add,
+    Dummy,
+    Expr,
+    Integer,
+    Mul,
+    Pow,
+    Rational,
+    Symbol,
+    cos,
+    default_sort_key,
+    prime,
+    sin,
+)
 from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
 from symdh.kinematics.chain import link_word
 from symdh.motion import Word
-from symdh.robot import Axis, JointType, Motion, MotionKind, Robot
+from symdh.robot import JointType, Motion, MotionKind, Robot
 
 #: An element of a sympy ring; sympy has no public types to say so.
 Element = Any
 Vector = tuple[Element, Element, Element]
+
+
+class TooLargeError(Exception):
+    """A polynomial, or a list of them, has grown past a stated limit."""
 
 
 class TrigRing:
@@ -114,6 +132,29 @@ class TrigRing:
         """Return the reduced product of two elements."""
         return self.reduced(left * right)
 
+    def generic_point(self, shift: int = 0) -> list[Fraction]:
+        """Return rational values of the generators, cosines and sines on the unit circle.
+
+        They come from prime numbers and obey no relation by accident; each `shift` gives others.
+        """
+        values: list[Fraction] = []
+        for k in range(len(self.angles)):
+            t = Fraction(int(prime(11 + 3 * k + shift)), int(prime(23 + 5 * k + shift)))
+            values += [(1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)]
+        values += [Fraction(int(prime(31 + 2 * k + shift)), 7) for k in range(len(self.others))]
+        return values or [Fraction(1)]
+
+    def value(self, element: Element, point: Sequence[Fraction]) -> Fraction:
+        """Return the value of an element where the generators have the values of `point`."""
+        total = Fraction(0)
+        for powers, coefficient in element.terms():
+            term = Fraction(int(coefficient.numerator), int(coefficient.denominator))
+            for value, power in zip(point, powers, strict=True):
+                if power:
+                    term *= value**power
+            total += term
+        return total
+
     def cosine_and_sine(self, amount: Expr) -> tuple[Element, Element]:
         """Return cosine and sine of an angle, by the sums of the ring's own angles."""
         moving, constant = self._parted(_split(amount))
@@ -133,9 +174,7 @@ class TrigRing:
 
     def cross(self, a: Vector, b: Vector) -> Vector:
         """Return the vector product."""
-        x, y, z = (
-            self.reduced(a[i] * b[j] - a[j] * b[i]) for i, j in ((1, 2), (2, 0), (0, 1))
-        )
+        x, y, z = (self.reduced(a[i] * b[j] - a[j] * b[i]) for i, j in ((1, 2), (2, 0), (0, 1)))
         return x, y, z
 
     def dot(self, a: Vector, b: Vector) -> Element:

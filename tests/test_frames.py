@@ -1,0 +1,562 @@
+"""Frame assignment against screws: the joints of a mechanism moved as they are given in space.
+
+The oracle turns and slides the tool about the axes themselves (Rodrigues' formula), one after the
+other from the hand to the base; it knows nothing of frames, normals or rows.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import Runner
+from oracle import EXTENDED, elementary, read_arm_file
+from sympy import Expr, Integer, Matrix, Rational, Symbol, atan2, pi, sqrt
+
+from symdh.derivation.frames import frames_document
+from symdh.frames import AssignmentError, assign, assign_frames, mechanism_of, read_frames
+from symdh.frames.geometry import Relation
+from symdh.mechanism import JointAxis, Mechanism, ToolFrame, Vector
+from symdh.render.table_yaml import table_yaml
+from symdh.render.terminal import render_chapters
+from symdh.robot import Axis, Convention, JointType, MotionKind, Robot
+from symdh.table import load_table, loads_table
+from symdh.table.axes import read_mechanism
+from symdh.table.source import from_text
+
+HERE = Path(__file__).parent
+EXAMPLES = HERE.parent / "examples"
+TABLES = sorted((HERE / "data" / "tables").glob("*.yaml"))
+BOTH = list(Convention)
+
+#: 50 random mechanisms each, in both conventions. SYMDH_RANDOM_BLOCKS=20 makes them 2000.
+BLOCKS = int(os.environ.get("SYMDH_RANDOM_BLOCKS", "2"))
+ORDER = {
+    Convention.STANDARD: (("Rz", "theta"), ("Tz", "d"), ("Tx", "a"), ("Rx", "alpha")),
+    Convention.MODIFIED: (("Rx", "alpha"), ("Tx", "a"), ("Rz", "theta"), ("Tz", "d")),
+}
+
+
+def numeric(expression: Expr, values: Mapping[Symbol, float]) -> float:
+    return float(expression.evalf(30, subs=dict(values)))
+
+
+def table_pose(robot: Robot, values: Mapping[Symbol, float]) -> np.ndarray:
+    """Pose of the last frame (tool included) in the base, elementary motion by motion."""
+    word = [(f"{m.kind.value}{m.axis.name.lower()}", m.amount) for m in robot.base]
+    for joint in robot.joints:
+        word += [(kind, getattr(joint, name)) for kind, name in ORDER[robot.convention]]
+    word += [(f"{m.kind.value}{m.axis.name.lower()}", m.amount) for m in robot.tool]
+    pose = np.eye(4)
+    for kind, amount in word:
+        pose = pose @ elementary(kind, numeric(amount, values), (), EXTENDED).astype(float)
+    return pose
+
+
+def screw(axis: JointAxis, moved: float, values: Mapping[Symbol, float]) -> np.ndarray:
+    """A turn about, or a slide along, a line in space."""
+    z = np.array([numeric(e, values) for e in axis.direction])
+    motion = np.eye(4)
+    if axis.type is JointType.PRISMATIC:
+        motion[:3, 3] = moved * z
+        return motion
+    p = np.array([numeric(e, values) for e in axis.point])
+    k = np.array([[0, -z[2], z[1]], [z[2], 0, -z[0]], [-z[1], z[0], 0]])
+    turn = np.eye(3) + np.sin(moved) * k + (1 - np.cos(moved)) * k @ k
+    motion[:3, :3], motion[:3, 3] = turn, p - turn @ p
+    return motion
+
+
+def moved_by(mechanism: Mechanism, values: Mapping[Symbol, float]) -> np.ndarray:
+    """What the joints do to the tool, from home to `values`."""
+    motion = np.eye(4)
+    for axis in mechanism.axes:
+        amount = numeric(axis.ratio, values) * (values[axis.variable] - numeric(axis.home, values))
+        motion = motion @ screw(axis, amount, values)
+    return motion
+
+
+def tool_pose(tool: ToolFrame) -> np.ndarray:
+    assert tool.approach is not None
+    assert tool.sliding is not None
+    pose = np.eye(4)
+    s, a, p = (
+        np.array([float(e) for e in vector]) for vector in (tool.sliding, tool.approach, tool.point)
+    )
+    pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = np.cross(s, a), s, a, p
+    return pose
+
+
+def random_q(mechanism: Mechanism, seed: int) -> dict[Symbol, float]:
+    generator = random.Random(seed)
+    return {axis.variable: generator.uniform(-3, 3) for axis in mechanism.axes}
+
+
+# Directions of whole numbers over their length, so that everything is given exactly.
+TRIPLES = ((3, 4, 0, 5), (1, 0, 0, 1), (1, 2, 2, 3), (2, 3, 6, 7), (0, 5, 12, 13))
+
+
+def random_unit(generator: random.Random) -> Vector:
+    *entries, size = generator.choice(TRIPLES)
+    signed = [Rational(e * generator.choice((1, -1)), size) for e in entries]
+    generator.shuffle(signed)
+    return signed[0], signed[1], signed[2]
+
+
+def random_point(generator: random.Random) -> Vector:
+    x, y, z = (Rational(generator.randint(-8, 8), generator.choice((1, 2, 5))) for _ in range(3))
+    return x, y, z
+
+
+def random_tool(generator: random.Random) -> ToolFrame:
+    """A tool whose frame is a product of rational rotations (unit quaternions of whole numbers)."""
+    w, x, y, z = (Integer(generator.randint(-2, 2)) for _ in range(4))
+    square = w * w + x * x + y * y + z * z
+    if square == 0:
+        w, square = Integer(1), Integer(1)
+    sliding = (2 * (x * y - w * z), w * w - x * x + y * y - z * z, 2 * (y * z + w * x))
+    approach = (2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z)
+    point = random_point(generator)
+    return ToolFrame(
+        point,
+        approach=(approach[0] / square, approach[1] / square, approach[2] / square),
+        sliding=(sliding[0] / square, sliding[1] / square, sliding[2] / square),
+    )
+
+
+NEIGHBOURS = ("skew", "parallel", "intersecting", "coincident")
+
+
+def random_mechanism(seed: int) -> tuple[Mechanism, list[str]]:
+    """A mechanism of 2 to 6 joints, and how each axis was laid beside the one before."""
+    generator = random.Random(seed)
+    kinds, axes = [], []
+    point, direction = random_point(generator), random_unit(generator)
+    for number in range(1, generator.randint(2, 6) + 1):
+        if number > 1:
+            kind = generator.choice(NEIGHBOURS)
+            kinds.append(kind)
+            along = Rational(generator.randint(-4, 4), 2)
+            if kind in ("skew", "parallel"):
+                point = random_point(generator)
+            else:
+                x, y, z = (p + along * e for p, e in zip(point, direction, strict=True))
+                point = (x, y, z)
+            if kind in ("skew", "intersecting"):
+                direction = random_unit(generator)
+            elif generator.random() < 0.5:
+                direction = (-direction[0], -direction[1], -direction[2])
+        turns = generator.random() < 0.7
+        home = generator.choice((Integer(0), Integer(0), pi / 6 if turns else Rational(1, 2)))
+        axes.append(
+            JointAxis(
+                JointType.REVOLUTE if turns else JointType.PRISMATIC,
+                point,
+                direction,
+                Symbol(f"q{number}", real=True),
+                home=home,
+                reverse=generator.random() < 0.3,
+            )
+        )
+    return Mechanism("random", tuple(axes), random_tool(generator)), kinds
+
+
+@pytest.mark.parametrize("convention", BOTH)
+@pytest.mark.parametrize("path", TABLES, ids=lambda path: path.stem)
+def test_corpus_table_to_axes_to_table(path: Path, convention: Convention) -> None:
+    original = read_arm_file(path)
+    found = assign_frames(mechanism_of(load_table(str(path)).robot), convention)
+    assert found.exact
+    assert found.robot.convention is convention
+    poses = original.seeded_poses(100, seed=4)
+    names = [name for name, _ in original.variables]
+    q = {name: poses[:, k] for k, name in enumerate(names)}
+    given = {name: 0.3 + 0.1 * k for k, name in enumerate(original.parameters())}
+    expected = original.pose({**q, **given})
+    got = table_poses(found.robot, q, given)
+    tolerance = original.tolerance(given)
+    assert np.max(np.abs(got - expected)) <= 4 * tolerance
+
+
+def table_poses(robot: Robot, q: Mapping[str, Any], given: Mapping[str, float]) -> np.ndarray:
+    """Like `table_pose` for many poses: amounts are affine in the one variable that they hold."""
+    known = {Symbol(name, real=True): value for name, value in given.items()}
+    known |= {symbol: float(value) for symbol, value in robot.values.items()}
+    word = [(f"{m.kind.value}{m.axis.name.lower()}", m.amount) for m in robot.base]
+    for joint in robot.joints:
+        word += [(kind, getattr(joint, name)) for kind, name in ORDER[robot.convention]]
+    word += [(f"{m.kind.value}{m.axis.name.lower()}", m.amount) for m in robot.tool]
+    count = len(next(iter(q.values())))
+    pose = np.broadcast_to(np.eye(4, dtype=np.longdouble), (count, 4, 4))
+    for kind, amount in word:
+        variables = sorted(s.name for s in amount.free_symbols if s.name in q)
+        zero = {Symbol(name, real=True): Integer(0) for name in variables}
+        value: Any = np.longdouble(str(amount.xreplace(zero).evalf(25, subs=known)))
+        for name in variables:
+            value = value + float(amount.coeff(Symbol(name, real=True))) * q[name]
+        pose = pose @ elementary(kind, value, (count,), EXTENDED)
+    return np.asarray(pose)
+
+
+@pytest.mark.parametrize("convention", BOTH)
+@pytest.mark.parametrize("block", range(BLOCKS))
+def test_random_mechanisms_move_as_given(block: int, convention: Convention) -> None:
+    for seed in range(block * 50, block * 50 + 50):
+        seed = 2 * seed + (convention is Convention.MODIFIED)
+        mechanism, _ = random_mechanism(seed)
+        found = assign_frames(mechanism, convention)
+        assert found.exact
+        assert not found.snaps
+        assert mechanism.tool is not None
+        home = {axis.variable: float(axis.home) for axis in mechanism.axes}
+        assert table_pose(found.robot, home) == pytest.approx(tool_pose(mechanism.tool), abs=1e-12)
+        q = random_q(mechanism, seed)
+        expected = moved_by(mechanism, q) @ tool_pose(mechanism.tool)
+        assert table_pose(found.robot, q) == pytest.approx(expected, abs=1e-12), seed
+
+
+# The lectures' tables, typed from their pages: theta, d, a, alpha.
+t1, t2, t3, t4, t5, q1, q2, q3, q4 = (
+    Symbol(name, real=True)
+    for name in ("theta1", "theta2", "theta3", "theta4", "theta5", "q1", "q2", "q3", "q4")
+)
+a1, a2, a3, d1, d3, d4, d5, L1, L2 = (
+    Symbol(name, real=True) for name in ["a1", "a2", "a3", "d1", "d3", "d4", "d5", "L1", "L2"]
+)
+LECTURES = {
+    "planar_2r": [(t1, 0, a1, 0), (t2, 0, a2, 0)],
+    "scara": [(q1, d1, a1, 0), (q2, 0, a2, 0), (0, q3, 0, 0), (q4, d4, 0, pi)],
+    "rrp_modified": [(t1, 0, 0, 0), (t2, 0, 0, pi / 2), (0, d3, a2, pi / 2)],
+    "planar_2r_modified": [(t1, 0, 0, 0), (t2, 0, a1, 0)],
+    "minimover_5r": [
+        (t1, 0, 0, -pi / 2),
+        (t2, 0, L1, 0),
+        (t3, 0, L2, 0),
+        (t4, 0, 0, pi / 2),
+        (t5, 0, 0, 0),
+    ],
+    "articulated": [
+        (t1, d1, 0, -pi / 2),
+        (t2, 0, a2, 0),
+        (t3, 0, a3, 0),
+        (t4 + pi / 2, 0, 0, pi / 2),
+        (t5, d5, 0, 0),
+    ],
+}
+
+
+@pytest.mark.parametrize("name", LECTURES)
+def test_the_lectures_tables_come_out_of_their_mechanisms(name: str) -> None:
+    robot = assign(example(name))
+    rows = [(joint.theta, joint.d, joint.a, joint.alpha) for joint in robot.joints]
+    assert rows == LECTURES[name]
+    assert robot.base == ()
+    slide = [(m.kind, m.axis, m.amount) for m in robot.tool]
+    in_tool = [(MotionKind.TRANSLATION, Axis.X, a2)] if name == "planar_2r_modified" else []
+    assert slide == in_tool
+
+
+@pytest.mark.parametrize("name", ["planar_2r", "planar_2r_modified", "scara", "minimover_5r"])
+def test_examples_agree_with_the_tables_beside_them(name: str) -> None:
+    table = load_table(str(EXAMPLES / f"{name}.yaml")).robot
+    found = assign(example(name))
+    assert (found.joints, found.base, found.tool) == (table.joints, table.base, table.tool)
+
+
+def test_theta1_of_the_minimover_follows_x0() -> None:
+    text = (EXAMPLES / "minimover_5r_axes.yaml").read_text()
+    along_y = text.replace("0: {x: [1, 0, 0]}", "0: {x: [0, 1, 0]}")
+    assert along_y != text
+    first = assign(mechanism_from(along_y)).joints[0]
+    # Measured from the arm itself, theta1 is zero where the file says that it is 90 degrees.
+    assert first.theta == t1 - pi / 2
+
+
+RIGHT, SLOPE = pi / 2, atan2(4, 3)
+AXES = """
+name: arm
+joints:
+  - {{point: [0, 0, 0], direction: [0, 0, 1]}}
+  - {{point: {point}, direction: {direction}}}
+  - {{point: [3, 1, 2], direction: [0, 1, 0]}}
+{more}
+"""
+
+
+@pytest.mark.parametrize(
+    ("point", "direction", "relation", "origin", "x", "row"),
+    [
+        # Two axes at right angles that pass at 2: the common normal is along x, at height 5.
+        ("[2, 7, 5]", "[0, 1, 0]", Relation.SKEW, (2, 0, 5), (1, 0, 0), (0, 5, 2, -pi / 2)),
+        (
+            "[0, 7, 5]",
+            "[0, 1, 0]",
+            Relation.INTERSECTING,
+            (0, 0, 5),
+            (-1, 0, 0),
+            (pi, 5, 0, pi / 2),
+        ),
+        ("[3, 4, 9]", "[0, 0, 1]", Relation.PARALLEL, (3, 4, 0), (3, 4, 0), (SLOPE, 0, 5, 0)),
+        (
+            "[3, 4, 9]",
+            "[0, 0, -1]",
+            Relation.PARALLEL,
+            (3, 4, 0),
+            (3, 4, 0),
+            (atan2(4, 3), 0, 5, pi),
+        ),
+        ("[0, 0, 9]", "[0, 0, 1]", Relation.COINCIDENT, (0, 0, 0), (1, 0, 0), (0, 0, 0, 0)),
+    ],
+)
+def test_each_case_of_two_axes(
+    point: str, direction: str, relation: Relation, origin: Any, x: Any, row: Any
+) -> None:
+    mechanism = mechanism_from(AXES.format(point=point, direction=direction, more=""))
+    found = assign_frames(mechanism, Convention.STANDARD)
+    step = found.steps[1]
+    assert step.relation is relation
+    assert step.placed.origin == origin
+    size = sqrt(sum(e * e for e in x))
+    assert step.placed.columns[0] == tuple(e / size for e in x)
+    measured = found.measured[0]
+    assert (measured.theta, measured.d, measured.a, measured.alpha) == row
+
+
+@pytest.mark.parametrize(
+    ("more", "frame", "origin", "x"),
+    [
+        ("frames: {1: {origin: [0, 0, 5]}}", 1, (3, 4, 5), (Rational(3, 5), Rational(4, 5), 0)),
+        ("frames: {1: {x: reverse}}", 1, (3, 4, 0), (-Rational(3, 5), -Rational(4, 5), 0)),
+        ("frames: {1: {x: [-0.6, -0.8, 0]}}", 1, (3, 4, 0), (-Rational(3, 5), -Rational(4, 5), 0)),
+        ("frames: {0: {x: [0, 1, 0], origin: [0, 0, 1]}}", 0, (0, 0, 1), (0, 1, 0)),
+        ("frames: {3: {x: [0, 0, 1], origin: [3, 8, 2]}}", 3, (3, 8, 2), (0, 0, 1)),
+    ],
+)
+def test_free_choices(more: str, frame: int, origin: Any, x: Any) -> None:
+    text = AXES.format(point="[3, 4, 9]", direction="[0, 0, 1]", more=more)
+    mechanism = mechanism_from(text)
+    found = assign_frames(mechanism, Convention.STANDARD)
+    placed = found.steps[frame].placed
+    assert (placed.origin, placed.columns[0]) == (origin, x)
+    # Whatever was chosen, the arm moves alike.
+    plain = mechanism_from(AXES.format(point="[3, 4, 9]", direction="[0, 0, 1]", more=""))
+    q = random_q(mechanism, seed=1)
+    home = dict.fromkeys(q, 0.0)
+    for each in (mechanism, plain):
+        robot = assign(each, Convention.STANDARD)
+        moved = table_pose(robot, q) @ np.linalg.inv(table_pose(robot, home))
+        assert moved == pytest.approx(moved_by(mechanism, q), abs=1e-12)
+
+
+def test_z_may_point_against_the_joint() -> None:
+    text = AXES.format(point="[3, 4, 9]", direction="[0, 0, 1], z: reverse", more="")
+    found = assign_frames(mechanism_from(text), Convention.STANDARD)
+    assert found.steps[1].placed.z == (0, 0, -1)
+    assert found.robot.joints[1].theta.coeff(t2) == -1
+    mechanism = found.mechanism
+    q = random_q(mechanism, seed=2)
+    moved = table_pose(found.robot, q) @ np.linalg.inv(
+        table_pose(found.robot, dict.fromkeys(q, 0.0))
+    )
+    assert moved == pytest.approx(moved_by(mechanism, q), abs=1e-12)
+
+
+@pytest.mark.parametrize("convention", BOTH)
+@pytest.mark.parametrize(
+    ("point", "direction", "says"),
+    [
+        ("[3, 4, 9]", "[0.000001, 0, 0.9999999999995]", "parallel to axis 1"),
+        ("[0.000001, 7, 5]", "[0, 1, 0]", "meets axis 1"),
+        ("[0.000001, 0, 5]", "[0, 0, 1]", "in line with axis 1"),
+        ("[2, 7, 5]", "[0, 0.9999999999995, 0.000001]", "at right angles to axis 1"),
+    ],
+)
+def test_what_is_off_by_a_millionth_is_recognised_and_reported(
+    convention: Convention, point: str, direction: str, says: str
+) -> None:
+    given = AXES.format(point=point, direction=direction, more="")
+    found = assign_frames(mechanism_from(given), convention)
+    assert any(says in snap.taken_as for snap in found.snaps)
+    assert not found.exact
+    snap = next(snap for snap in found.snaps if says in snap.taken_as)
+    assert snap.miss == pytest.approx(1e-6, rel=1e-3)
+    q = random_q(found.mechanism, seed=3)
+    moved = table_pose(found.robot, q) @ np.linalg.inv(
+        table_pose(found.robot, dict.fromkeys(q, 0.0))
+    )
+    assert moved == pytest.approx(moved_by(found.mechanism, q), abs=1e-4)
+    twists = [joint.alpha for joint in found.robot.joints]
+    assert all((2 * twist / pi).is_Integer for twist in twists)
+
+    strict = mechanism_from(given + "\ntolerance: 0")
+    try:
+        plain = assign_frames(strict, convention)
+    except AssignmentError as problem:
+        assert "no unit vector" in str(problem)
+    else:
+        assert not plain.snaps
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "says"),
+    [
+        ("direction: [0, 0, 0]", "3:14", "direction is zero"),
+        ("direction: [0, 0, 2]", "3:14", "its length is 2; write [0, 0, 1]"),
+        ("direction: [1, 1, 0]", "3:14", "write [1/sqrt(2), 1/sqrt(2), 0]"),
+        ("direction: [0, 1]", "3:14", "list of three"),
+        ("direction: [0, 0, 1], home: x1 m", "3:33", "a unit follows a number"),
+        ("direction: [0, 0, 1], kind: P", "3:25", "key kind unknown in joint 1"),
+        ("direction: [0, 0, 1], type: helical", "3:31", "type of joint helical unknown"),
+        ("direction: [theta2, 0, 1]", "3:15", "theta2 moves a joint"),
+        ("direction: [0, 0, 1], variable: theta2", "4:6", "already drives another joint"),
+    ],
+)
+def test_bad_axes_are_refused_at_their_place(
+    run_symdh: Runner, tmp_path: Path, text: str, place: str, says: str
+) -> None:
+    source = f"name: arm\njoints:\n- {{{text}, point: [0, 0, 0]}}\n- {{variable: theta2, "
+    source += "direction: [0, 0, 1], point: [1, 0, 0]}\n"
+    (tmp_path / "bad.yaml").write_text(source)
+    before = sorted(tmp_path.iterdir())
+    done = run_symdh("frames", "bad.yaml", "-o", "out.yaml")
+    assert done.returncode == 2
+    line = next(each for each in done.stderr.splitlines() if says in each)
+    assert line.startswith(f"bad.yaml:{place.split(':')[0]}:")
+    assert "Traceback" not in done.stderr
+    assert done.stdout == ""
+    assert sorted(tmp_path.iterdir()) == before
+
+
+@pytest.mark.parametrize(
+    ("more", "line", "says"),
+    [
+        ("tool: {point: [0, 0, 1], approach: [0, 1, 0], sliding: [0, 0, 1]}", 7, "no row reaches"),
+        ("tool: {point: [0, 0, 1], approach: [0, 1, 0], sliding: [0, 1, 0]}", 7, "right angles"),
+        ("tool: {point: [0, 0, 1], approach: [0, 1, 0]}", 7, "approach alone"),
+        ("frames: {1: {origin: [0, 0, 1]}}", 7, "not free"),
+        ("frames: {1: {x: [0.6, 0.8, 0]}}", 7, "at right angles"),
+        ("frames: {1: {x: [0, 0, 1]}}", 7, "common normal"),
+        ("frames: {0: {origin: [1, 0, 0]}}", 7, "not on the z axis of frame 0"),
+        ("frames: {9: {x: reverse}}", 7, "key 9 unknown"),
+        ("tolerance: 1", 7, "tolerance is a number"),
+        ("last: nowhere", 7, "place of the last frame"),
+    ],
+)
+def test_choices_that_break_a_rule_are_refused(
+    run_symdh: Runner, tmp_path: Path, more: str, line: int, says: str
+) -> None:
+    text = AXES.format(point="[2, 7, 5]", direction="[0, 1, 0]", more=more).lstrip()
+    text = text.replace("[3, 1, 2], direction: [0, 1, 0]", "[3, 1, 2], direction: [1, 0, 0]")
+    (tmp_path / "bad.yaml").write_text("# axes\n" + text)
+    done = run_symdh("frames", "bad.yaml", "--convention", "standard", "-o", "out.yaml")
+    assert done.returncode == 2
+    assert any(
+        each.startswith(f"bad.yaml:{line}:") and says in each for each in done.stderr.splitlines()
+    ), done.stderr
+    assert not (tmp_path / "out.yaml").exists()
+
+
+def test_a_tool_out_of_reach_is_reached_by_a_word_when_asked() -> None:
+    tool = "tool: {point: [0, 0, 1], approach: [0, 1, 0], sliding: [0, 0, 1]}\nlast: joint"
+    mechanism = mechanism_from(AXES.format(point="[2, 7, 5]", direction="[0, 1, 0]", more=tool))
+    robot = assign(mechanism, Convention.STANDARD)
+    assert robot.tool
+    assert mechanism.tool is not None
+    home = {axis.variable: 0.0 for axis in mechanism.axes}
+    assert table_pose(robot, home) == pytest.approx(tool_pose(mechanism.tool), abs=1e-14)
+
+
+@pytest.mark.parametrize("convention", BOTH)
+@pytest.mark.parametrize("name", ["puma560", "kinova_jaco", "scara_rrpr", "ikbt_Stanford"])
+def test_parameters_are_read_off_frames(name: str, convention: Convention) -> None:
+    mechanism = mechanism_of(load_table(str(HERE / "data" / "tables" / f"{name}.yaml")).robot)
+    found = assign_frames(mechanism, convention)
+    matrices = [step.placed.matrix for step in found.steps]
+    assert read_frames(matrices, convention) == found.measured
+
+
+E4 = Matrix.eye(4)
+
+
+def pose_of(*rows: Sequence[Any]) -> Matrix:
+    return Matrix([*rows, [0, 0, 0, 1]])
+
+
+@pytest.mark.parametrize(
+    ("matrix", "convention", "says"),
+    [
+        (
+            pose_of([0, 0, 1, 1], [0, 1, 0, 0], [-1, 0, 0, 0]),
+            Convention.STANDARD,
+            "x_1 is not perpendicular to z_0: they make an angle of 180 deg",
+        ),
+        (
+            pose_of([1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 0]),
+            Convention.STANDARD,
+            "x_1 does not meet z_0: they pass at a distance of 2, x_1 at [0, 2, 0]",
+        ),
+        (
+            pose_of([1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 0]),
+            Convention.MODIFIED,
+            "x_0 does not meet z_1: they pass at a distance of 2, x_0 at [1, 0, 0]",
+        ),
+        (pose_of([1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 0]), Convention.STANDARD, "left-handed"),
+        (pose_of([1, 1, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]), Convention.STANDARD, "no unit vector"),
+    ],
+)
+def test_frames_that_break_a_condition_are_named(
+    matrix: Matrix, convention: Convention, says: str
+) -> None:
+    with pytest.raises(AssignmentError) as caught:
+        read_frames([E4, matrix], convention)
+    assert says in str(caught.value)
+    assert caught.value.faults[0].subject == ("matrix", 1)
+
+
+@pytest.mark.parametrize("convention", BOTH)
+def test_tables_load_back_as_they_were(convention: Convention) -> None:
+    robots = [load_table(str(path)).robot for path in TABLES]
+    robots += [assign(random_mechanism(seed)[0], convention) for seed in range(15)]
+    for robot in robots:
+        assert loads_table(table_yaml(robot)).robot == robot
+
+
+@pytest.mark.parametrize("convention", BOTH)
+def test_the_story_is_told_for_every_case(convention: Convention) -> None:
+    told = set()
+    for seed in range(12):
+        mechanism, _ = random_mechanism(seed)
+        found = assign_frames(mechanism, convention)
+        text = render_chapters(frames_document(found).chapters)
+        assert text.count("\nRow ") == mechanism.n
+        assert text.count("Frame ") == mechanism.n + 1
+        told |= {step.relation for step in found.steps if step.relation}
+    assert told == set(Relation)
+
+
+def test_frames_command_writes_a_table_that_derives(run_symdh: Runner, tmp_path: Path) -> None:
+    axes = EXAMPLES / "scara_axes.yaml"
+    done = run_symdh("frames", axes, "-o", "arm.yaml")
+    assert (done.returncode, "The frames" in done.stdout) == (0, True)
+    written = (tmp_path / "arm.yaml").read_text()
+    assert run_symdh("frames", axes, "-o", "-").stdout == written
+    assert run_symdh("frames", axes, "-o", "arm.yaml").returncode == 0
+    shown = run_symdh("show", "arm.yaml", "--format", "json")
+    beside = run_symdh("show", EXAMPLES / "scara.yaml", "--format", "json")
+    assert shown.stdout == beside.stdout
+    latex = run_symdh("frames", axes, "--format", "latex")
+    assert latex.returncode == 0
+    assert r"\section" in latex.stdout
+
+
+def example(name: str) -> Mechanism:
+    return mechanism_from((EXAMPLES / f"{name}_axes.yaml").read_text())
+
+
+def mechanism_from(text: str) -> Mechanism:
+    return read_mechanism(from_text(text, "<test>")).mechanism

@@ -1,0 +1,327 @@
+"""Singularities: the rank of the oracle's Jacobian on the symbolic sets and off them."""
+
+from __future__ import annotations
+
+import functools
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import Runner
+from oracle import Arm
+from sympy import Expr, Float, Rational, Symbol, cos, lambdify, pi, sin, symbols
+from test_velocity import (
+    TABLES,
+    arm_of,
+    assert_close,
+    evaluated,
+    expected_jacobian,
+    load,
+    numbers_of,
+    table_named,
+)
+
+import symdh
+from symdh.derivation.derive import derive
+from symdh.derivation.singularity import chapter
+from symdh.derivation.style import Style
+from symdh.errors import UnsupportedError
+from symdh.kinematics.frame import Frame
+from symdh.kinematics.singular import Factor, Kind, Singularities, determinant, singularities
+from symdh.render.terminal import render_chapters
+from symdh.table import parse_expression
+
+ON, OFF = 20, 1000
+STARTS = 400
+#: Least singular value, beside the largest, under which a matrix has lost rank, and over which it
+#: has not: rounding leaves 5e-14 on the singular sets, and no random pose comes nearer than 3e-8.
+LOST, KEPT = 1e-11, 1e-9
+
+each_table = pytest.mark.parametrize("table", TABLES, ids=lambda path: path.stem)
+THETA = {i: Symbol(f"theta{i}", real=True) for i in range(1, 8)}
+
+
+@functools.cache
+def found_for(table: Path) -> Singularities:
+    return singularities(load(table))
+
+
+def matrices(found: Singularities, arm: Arm, q: np.ndarray) -> np.ndarray:
+    """The rows that the result is about, from the oracle; all six where the frame was chosen."""
+    whole = expected_jacobian(arm, q)
+    return whole[..., list(found.rows), :] if found.point is None else whole
+
+
+def least(found: Singularities, arm: Arm, q: np.ndarray) -> np.ndarray:
+    """The singular value that decides about the rank, beside the largest one."""
+    values = np.linalg.svd(matrices(found, arm, q).astype(float), compute_uv=False)
+    return np.asarray(values[..., found.rank - 1] / values[..., 0])
+
+
+def roots(
+    robot: symdh.Robot, conditions: tuple[Expr, ...], arm: Arm, count: int
+) -> Iterator[np.ndarray]:
+    """Yield joint values at which all conditions vanish: Gauss-Newton from random poses."""
+    exact = [condition.xreplace(dict(robot.values)) for condition in conditions]
+    value = lambdify([robot.variables], exact, "numpy")
+    slope = lambdify([robot.variables], [[e.diff(v) for v in robot.variables] for e in exact])
+    for q in arm.seeded_poses(STARTS, seed=count):
+        for _ in range(60):
+            residue = np.array(value(q), dtype=float)
+            if np.abs(residue).max() < 1e-14:
+                break
+            step = np.linalg.lstsq(np.array(slope(q), dtype=float), residue, rcond=1e-8)[0]
+            q = q - step * min(1.0, 0.5 / (np.abs(step).max() + 1e-30))
+        if np.abs(np.array(value(q), dtype=float)).max() < 1e-12:
+            yield q
+
+
+def first(points: Iterator[np.ndarray], count: int) -> np.ndarray:
+    return np.array([q for q, _ in zip(points, range(count), strict=False)])
+
+
+@each_table
+def test_the_rank_drops_where_a_factor_vanishes(table: Path) -> None:
+    robot, arm, found = load(table), arm_of(table), found_for(table)
+    for factor in found.factors or ():
+        points = first(roots(robot, (factor.expression,), arm, ON), ON)
+        assert len(points) == ON, factor
+        assert least(found, arm, points).max() < LOST, factor
+
+
+@each_table
+def test_the_rank_drops_where_all_of_a_remaining_set_vanish(table: Path) -> None:
+    robot, arm, found = load(table), arm_of(table), found_for(table)
+    for conditions in found.remaining:
+        points = first(roots(robot, conditions, arm, ON), ON)
+        assert len(points) == ON, conditions
+        assert least(found, arm, points).max() < LOST, conditions
+
+
+@each_table
+def test_the_rank_is_kept_off_the_sets(table: Path) -> None:
+    robot, arm, found = load(table), arm_of(table), found_for(table)
+    q = arm.seeded_poses(OFF, seed=99)
+    assert least(found, arm, q).min() > KEPT
+    if len(found.joints) > found.rank or found.rank < 6:
+        whole = np.linalg.matrix_rank(matrices(found, arm, q).astype(float))
+        assert set(whole) == {found.rank}
+    for factor in found.factors or ():
+        assert np.abs(evaluated(robot, [[factor.expression]], q)).min() > 0
+
+
+@each_table
+def test_the_product_is_the_determinant(table: Path) -> None:
+    robot, arm, found = load(table), arm_of(table), found_for(table)
+    if not found.is_square or found.factors is None:
+        assert len(found.rows) != len(found.joints)
+        return
+    if found.point is not None and len(found.rows) < 6:
+        return  # rows along the axes of a frame of its own; the next test has those
+    q = arm.seeded_poses(100, seed=5)
+    rows = list(found.rows)
+    matrix = expected_jacobian(arm, q, in_=found.frame)[..., rows, :].astype(float)
+    product = evaluated(robot, [[found.product]], q)[..., 0, 0]
+    assert_close(product, np.linalg.det(matrix), 1e-12)
+
+
+@pytest.mark.parametrize("name", ["planar_3r", "scara_rrpr", "zyz_wrist", "ikbt_Arm_3"])
+def test_the_determinant_of_the_rows_that_are_left(name: str) -> None:
+    table = table_named(name)
+    robot, arm, found = load(table), arm_of(table), found_for(table)
+    assert found.is_square
+    assert found.point is not None
+    q = arm.seeded_poses(100, seed=6)
+    matrix = moved_to(arm, q, found.point, found.frame)
+    others = [row for row in range(6) if row not in found.rows]
+    assert np.abs(matrix[..., others, :]).max(initial=0) < 1e-12
+    product = evaluated(robot, [[found.product]], q)[..., 0, 0]
+    assert_close(product, np.linalg.det(matrix[..., list(found.rows), :]), 1e-12)
+
+
+def moved_to(arm: Arm, q: np.ndarray, point: Frame, frame: Frame) -> np.ndarray:
+    """The Jacobian of the last link at the origin of `point`, along the axes of `frame`.
+
+    That origin may stand behind joints that move the link: v' = v + omega x (p' - p).
+    """
+    whole = expected_jacobian(arm, q, in_=frame)
+    numbers = numbers_of(arm, q)
+    last, there, turn = (arm.pose(numbers, "base", f) for f in ("tool", point, frame))
+    way = np.swapaxes(turn[..., :3, :3], -1, -2) @ (there - last)[..., :3, 3:]
+    linear = whole[..., :3, :] + np.cross(whole[..., 3:, :], way, axis=-2)
+    return np.concatenate([linear, whole[..., 3:, :]], axis=-2).astype(float)
+
+
+@each_table
+def test_zeros_are_zeros(table: Path) -> None:
+    robot, found = load(table), found_for(table)
+    for factor in found.factors or ():
+        for zero in factor.zeros:
+            (variable,) = factor.variables
+            number = factor.expression.xreplace({variable: zero}).xreplace(dict(robot.values))
+            assert abs(number.evalf(30)) < 1e-25
+            assert not zero.atoms(Float)
+        turning = [v for v in factor.variables if v in {j.variable for j in robot.joints}]
+        assert turning == list(factor.variables)
+
+
+def factors_of(name: str) -> tuple[Factor, ...]:
+    factors = found_for(table_named(name)).factors
+    assert factors is not None
+    return factors
+
+
+def test_the_planar_arm() -> None:
+    found = found_for(table_named("planar_2r"))
+    a1, a2 = symbols("a1 a2", real=True)
+    assert found.product == a1 * a2 * sin(THETA[2])
+    assert found.rows == (0, 1)
+    (factor,) = found.factors or ()
+    assert factor.zeros == (0, pi)
+    assert factor.meaning is not None
+    assert (factor.meaning.kind, factor.meaning.joints) == (Kind.ELBOW, (1, 2))
+
+
+def test_the_puma() -> None:
+    found = found_for(table_named("puma560"))
+    a2, a3, d4 = symbols("a2 a3 d4", real=True)
+    c23, s23 = cos(THETA[2] + THETA[3]), sin(THETA[2] + THETA[3])
+    expected = {
+        a2 * cos(THETA[2]) + a3 * c23 - d4 * s23: Kind.SHOULDER,
+        a3 * sin(THETA[3]) + d4 * cos(THETA[3]): Kind.ELBOW,
+        sin(THETA[5]): Kind.WRIST,
+    }
+    assert named(found) == expected
+    assert (found.point, found.constant) == (4, a2)
+
+
+def test_the_ur5() -> None:
+    found = found_for(table_named("ur5"))
+    a2, a3, d5 = symbols("a2 a3 d5", real=True)
+    t2, t3, t4 = THETA[2], THETA[3], THETA[4]
+    shoulder = a2 * cos(t2) + a3 * cos(t2 + t3) + d5 * sin(t2 + t3 + t4)
+    expected = {shoulder: Kind.SHOULDER, sin(t3): Kind.ELBOW, sin(THETA[5]): Kind.WRIST}
+    assert named(found) == expected
+
+
+def named(found: Singularities) -> dict[Expr, Kind | None]:
+    assert found.factors is not None
+    return {f.expression: f.meaning.kind if f.meaning else None for f in found.factors}
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("spherical_rrp", {"sin(theta2)": 1, "d3": 2}),
+        ("scara_rrpr", {"sin(theta2)": 1}),
+        ("stanford_textbook", {"sin(theta2)": 1, "d3": 2, "sin(theta5)": 1}),
+        ("zyz_wrist", {"sin(theta2)": 1}),
+        ("cartesian_ppp", {}),
+        ("minimover_5r", {"sin(theta3)": 1}),
+        ("kuka_iiwa7", {"sin(theta4)": 1}),
+    ],
+)
+def test_factors_of_well_known_arms(name: str, expected: dict[str, int]) -> None:
+    assert {str(f.expression): f.power for f in factors_of(name)} == expected
+
+
+def test_the_arm_with_seven_joints_is_singular_in_pairs_too() -> None:
+    found = found_for(table_named("kuka_iiwa7"))
+    pairs = {frozenset(map(str, each)) for each in found.remaining}
+    assert pairs == {
+        frozenset({"sin(theta2)", "sin(theta6)"}),
+        frozenset({"sin(theta2)", "cos(theta3)"}),
+        frozenset({"sin(theta6)", "cos(theta5)"}),
+    }
+    assert found.is_complete
+    assert not found.is_square
+
+
+def table_text(rows: str, more: str = "") -> str:
+    return (
+        "name: arm\nconvention: standard\nunits: {angle: deg, length: m}\n"
+        f"columns: [theta, d, a, alpha]\nrows:\n{rows}{more}"
+    )
+
+
+def test_redundant_planar_arm() -> None:
+    found = singularities(
+        symdh.loads(table_text("".join(f"  - [q{i}, 0, a{i}, 0]\n" for i in (1, 2, 3, 4))))
+    )
+    assert (found.rank, len(found.joints), found.factors) == (3, 4, ())
+    assert [sorted(map(str, each)) for each in found.remaining] == [["sin(q2)", "sin(q3)"]]
+
+
+def test_gear_offset_and_symbolic_twist() -> None:
+    rows = "  - [2*q1, 0, a1, 0]\n  - [30 deg - 3*q2, 0, a2, 0]\n"
+    (factor,) = singularities(symdh.loads(table_text(rows))).factors or ()
+    assert {zero - factor.zeros[0] for zero in factor.zeros} == {0, pi / 3}
+    for zero in factor.zeros:
+        turn = (pi / 6 - 3 * zero) / pi
+        assert turn.is_Integer or abs(turn.evalf(20) - round(turn.evalf(20))) < 1e-15
+    twisted = singularities(
+        symdh.loads(table_text("  - [q1, 0, a1, alpha1]\n  - [q2, 0, a2, 0]\n"))
+    )
+    assert twisted.rank == 2
+
+
+def test_a_point_matters_where_positions_are_looked_at() -> None:
+    robot = load(table_named("planar_2r"))
+    tip = singularities(robot, at=(Rational(0), Rational(1), Rational(0)))
+    (factor,) = tip.factors or ()
+    a2 = Symbol("a2", real=True)
+    assert (factor.expression - (a2 * sin(THETA[2]) + cos(THETA[2]))).is_zero
+    assert len(factor.zeros) == 2
+
+
+def test_an_arm_over_the_limit_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(determinant, "MAX_TERMS", 3)
+    robot = load(table_named("pieper_generic"))
+    found = singularities(robot)
+    assert found.factors is None
+    with pytest.raises(UnsupportedError, match="limit"):
+        _ = found.product
+    text = render_chapters([chapter(Style(robot), found)])
+    assert "over symdh's limit" in " ".join(text.split())
+
+
+def test_no_joint_no_singularity() -> None:
+    with pytest.raises(UnsupportedError, match="no joint"):
+        singularities(load(table_named("planar_2r")), of=0)
+
+
+def test_what_is_not_told_is_said_not_to_be() -> None:
+    found = found_for(table_named("sawyer"))
+    assert (found.factors, found.remaining, found.is_complete) == ((), (), False)
+    text = render_chapters([chapter(Style(found.robot), found)])
+    assert "too long to be written out" in " ".join(text.split())
+
+
+def test_the_command_in_json(run_symdh: Runner) -> None:
+    table = table_named("ur5")
+    ran = run_symdh("singular", table, "--format", "json")
+    assert (ran.returncode, ran.stderr) == (0, "")
+    printed = json.loads(ran.stdout)
+    product = parse_expression(printed["constant"])
+    for factor in printed["factors"]:
+        product = product * parse_expression(factor["expression"]) ** factor["power"]
+    q = arm_of(table).seeded_poses(20, seed=3)
+    robot = load(table)
+    expected = np.linalg.det(expected_jacobian(arm_of(table), q).astype(float))
+    assert_close(evaluated(robot, [[product]], q)[..., 0, 0], expected, 1e-12)
+    assert [f["name"] for f in printed["factors"]] == ["shoulder", "elbow", "wrist"]
+
+
+def test_the_command_in_words(run_symdh: Runner) -> None:
+    ran = run_symdh("singular", table_named("planar_2r"), env={"COLUMNS": "80"})
+    assert "det(J) = a₁ a₂ s₂" in ran.stdout
+    assert "θ₂ = 0 or θ₂ = 180°" in " ".join(ran.stdout.split())
+    latex = run_symdh("singular", table_named("planar_2r"), "--format", "latex")
+    assert r"\operatorname{det}(J) & = a_{1} a_{2} s_{2}" in latex.stdout
+
+
+def test_the_chapter_stands_in_the_handout() -> None:
+    titles = [chapter.title for chapter in derive(load(table_named("scara_rrpr"))).chapters]
+    assert titles[-3:] == ["Velocity", "Singularities", "Numbers"]
