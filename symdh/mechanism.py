@@ -18,6 +18,9 @@ from symdh.robot import Convention, JointType, Limits, Units
 
 Vector = tuple[Expr, Expr, Expr]
 
+#: A pose by its columns: x, y and z axis and the origin.
+Pose = tuple[Vector, Vector, Vector, Vector]
+
 ZERO, ONE = Integer(0), Integer(1)
 
 #: What is nearer than this to parallel (in radians) or to meeting (as a part of the mechanism's
@@ -126,6 +129,9 @@ class Mechanism:
         See `TOLERANCE`; 0 takes every number at its word.
     convention : Convention or None
         The one that the file asks for.
+    poses : tuple of Pose
+        Frames L_0 .. L_n in the home position, where they are given outright; points and
+        directions of the axes are then read off them. Else empty.
     values, limits, title, units
         As in a `Robot`.
     """
@@ -137,6 +143,7 @@ class Mechanism:
     last: Last = Last.AUTO
     tolerance: Expr = TOLERANCE
     convention: Convention | None = None
+    poses: tuple[Pose, ...] = ()
     values: Mapping[Symbol, Expr] = field(default_factory=dict)
     limits: Mapping[Symbol, Limits] = field(default_factory=dict)
     title: str | None = None

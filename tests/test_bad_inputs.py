@@ -59,7 +59,7 @@ joints:
   - {theta: theta1, d: d1, a: a1, alpha: 90 deg}
   - {theta: theta2, d: 0, a: a2, alpha: 0}
 """
-WRITTEN = {"arm.tex", "arm.py", "arm.h", "arm.c"}
+WRITTEN = {"arm.tex", "arm.html", "arm.py", "arm.h", "arm.c"}
 
 
 def has_input(case: dict[str, Any]) -> bool:

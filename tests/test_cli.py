@@ -62,7 +62,8 @@ def names(folder: Path = Path()) -> set[str]:
 
 def test_the_commands_are_those_of_the_design() -> None:
     designed = {"derive", "show", "eval", "latex", "pdf", "code", "check", "init", "completion"}
-    assert set(program.commands) == designed | {"html", "rotate", "task", "jacobian", "singular"}
+    later = {"html", "rotate", "task", "jacobian", "singular", "frames", "convert"}
+    assert set(program.commands) == designed | later
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.name)
@@ -131,7 +132,7 @@ def test_completion_prints_the_shell_s_script(shell: str, capsys: Capture) -> No
 @pytest.mark.parametrize(
     ("words", "index", "completions"),
     [
-        ("symdh co", 1, ["code", "completion"]),
+        ("symdh co", 1, ["convert", "code", "completion"]),
         ("symdh code --target ", 3, [target.name for target in TARGETS]),
     ],
 )
@@ -156,7 +157,7 @@ def test_derive_writes_everything_and_prints_the_result(arm: Path, capsys: Captu
     assert run(["derive", str(arm)]) == 0
     shown = capsys.readouterr()
     assert names() == {"arm.yaml", "arm"}
-    assert names(Path("arm")) == {"arm.tex", "arm.py", "arm.h", "arm.c"}
+    assert names(Path("arm")) == {"arm.tex", "arm.html", "arm.py", "arm.h", "arm.c"}
     assert "a₁ c₁ + a₂ c₁₂" in shown.out
     for name in names(Path("arm")):
         size = (Path("arm") / name).stat().st_size
@@ -170,7 +171,7 @@ def test_a_second_run_says_that_nothing_has_changed(arm: Path, capsys: Capture) 
     before = {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in Path("out").iterdir()}
     capsys.readouterr()
     assert run(["derive", str(arm), "-o", "out"]) == 0
-    assert capsys.readouterr().out.count("(unchanged)") == 4
+    assert capsys.readouterr().out.count("(unchanged)") == 5
     after = {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in Path("out").iterdir()}
     assert after == before
 

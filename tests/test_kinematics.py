@@ -228,7 +228,7 @@ def test_past_the_limit_there_is_no_closed_form() -> None:
             transform(robot, start, end)
         assert caught.value.exit_status == 4
         assert f"skew30 from {start} to {end}" in str(caught.value)
-        assert f"{size:,} operations, over the limit of 4,000" in str(caught.value)
+        assert f"{size:,} operations, over the limit of 2,000" in str(caught.value)
     assert not has_closed_form(robot, 0, 30)
     assert forward_kinematics(robot).pose is None
     assert len(forward_kinematics(robot).links) == 30

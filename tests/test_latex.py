@@ -2,6 +2,7 @@ r"""The handout as LaTeX: every table compiles, nothing runs off the page, text 
 
 from __future__ import annotations
 
+import functools
 import os
 import re
 import subprocess
@@ -64,6 +65,11 @@ each_table = pytest.mark.parametrize(
 )
 
 
+@functools.cache
+def handout(table: Path) -> str:
+    return render_latex(derive(symdh.load(table)))
+
+
 def typeset(tex: str, folder: Path, *, draft: bool = True) -> str:
     """Run pdflatex once and return its log; fail when TeX finds an error."""
     pdflatex = require_tool("pdflatex")
@@ -114,7 +120,7 @@ def document(*blocks: Paragraph | Display | Entries, title: str = "Title") -> Do
 
 @each_table
 def test_no_line_of_a_handout_is_too_long(table: Path, tmp_path: Path) -> None:
-    log = typeset(render_latex(derive(symdh.load(table))), tmp_path)
+    log = typeset(handout(table), tmp_path)
     assert overfull(log) == []
     assert "LaTeX Warning: Reference" not in log
     assert not re.search(r"^Missing character", log, re.MULTILINE)
@@ -145,7 +151,7 @@ def test_a_fragment_stands_in_a_document_of_ones_own(name: str, tmp_path: Path) 
 
 @each_table
 def test_only_the_packages_that_are_promised(table: Path) -> None:
-    text = render_latex(derive(symdh.load(table)))
+    text = handout(table)
     found = re.findall(r"\\usepackage(?:\[[^]]*\])?\{([^}]*)\}", text)
     assert {name for each in found for name in each.split(",")} <= PACKAGES
 
@@ -349,7 +355,7 @@ KATEX_LACKS = (
 
 @each_table
 def test_formulas_stay_inside_what_a_web_page_can_show(table: Path) -> None:
-    text = render_latex(derive(symdh.load(table)), fragment=True)
+    text = handout(table).partition(r"\begin{document}")[2]
     for macro in KATEX_LACKS:
         assert not re.search(re.escape(macro) + r"(?![a-z])", text), macro
 

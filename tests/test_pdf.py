@@ -86,6 +86,15 @@ def test_the_same_handout_gives_the_same_bytes(
     assert b"temporary" not in first
 
 
+def test_a_document_of_ones_own_gives_the_same_bytes_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It asks for nothing of the kind itself, so the run has to fix the date and the number."""
+    require_tool("pdflatex")
+    monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
+    first = compile_pdf(SMALL, engine="pdflatex")
+    time.sleep(1.1)
+    assert compile_pdf(SMALL, engine="pdflatex") == first
+
+
 # -- what is missing ------------------------------------------------------------------------------
 
 

@@ -17,7 +17,7 @@ from symdh.derivation import (
 from symdh.derivation.blocks import Document, Text
 from symdh.derivation.style import Naming, Order, Style
 from symdh.kinematics.forward import forward_kinematics
-from symdh.kinematics.singular import singularities
+from symdh.kinematics.singular import MAX_JOINTS, singularities
 from symdh.kinematics.velocity import has_closed_jacobian
 from symdh.robot import Convention, Robot
 
@@ -60,9 +60,9 @@ def derive(
     if robot.variables and has_closed_jacobian(robot, forward.end, forward.start):
         known = [style.notation.matrix(m) for m in (*forward.links, forward.pose) if m is not None]
         motion = velocity.readable_jacobian(style, forward.start, forward.end)
-        lost = singularities(robot)
         chapters.append(velocity.chapter(style, motion, known))
-        chapters.append(singularity.chapter(style, lost, known))
+        if len(robot.variables) <= MAX_JOINTS:
+            chapters.append(singularity.chapter(style, singularities(robot), known))
     figures = numbers.chapter(style, forward)
     if figures is not None:
         chapters.append(figures)

@@ -115,7 +115,7 @@ class _Narrator:
             )
         )
         for snap in self.found.snaps:
-            unit_name = "rad" if snap.angular else self._length_unit()
+            unit_name = snap.unit(self._length_unit())
             miss: Text = (Rounded(figures(snap.miss)),)
             if unit_name:
                 miss += (" ", Unit(unit_name))
@@ -182,6 +182,8 @@ class _Narrator:
                 return ("The origin ", o, " is the tip of the tool")
             case OriginRule.CHOSEN:
                 return ("The origin ", o, " is free along the axis and was chosen")
+            case OriginRule.GIVEN:
+                return ("The origin ", o, " is given")
 
     def _why_x(self, step: Step) -> Text:
         i = step.frame
@@ -210,6 +212,8 @@ class _Narrator:
                 return (x, " points from the last axis to the tip, ", _z(i), " along that axis")
             case XRule.CHOSEN:
                 return (x, " is free and was chosen")
+            case XRule.GIVEN:
+                return ("so are ", x, " and ", _z(i))
 
     # The parameters
 

@@ -8,7 +8,7 @@ measures frames that are given as matrices.
 from symdh.frames.assign import assign, assign_frames
 from symdh.frames.faults import AssignmentError, Fault
 from symdh.frames.located import mechanism_of
-from symdh.frames.reading import read_frames
+from symdh.frames.reading import pose_of_matrix, read_frames
 from symdh.frames.story import Assignment
 
 __all__ = [
@@ -18,5 +18,6 @@ __all__ = [
     "assign",
     "assign_frames",
     "mechanism_of",
+    "pose_of_matrix",
     "read_frames",
 ]

@@ -10,13 +10,15 @@ from sympy import Expr, Integer, pi
 from symdh.errors import UnsupportedError
 from symdh.frames import vectors as v
 from symdh.frames.exact import is_zero, tidy
-from symdh.frames.geometry import number
+from symdh.frames.faults import AssignmentError
+from symdh.frames.geometry import Line, number
 from symdh.frames.modified import home_motion, place_modified
 from symdh.frames.placed import Measured, PlacedFrame, measure, seen_from, word_to
+from symdh.frames.reading import check_frames, placed, read_frames
 from symdh.frames.settle import Settled, rounded, settle, shortened
 from symdh.frames.standard import place_standard, tool_frame
-from symdh.frames.story import Assignment, Step
-from symdh.mechanism import JointAxis, Mechanism
+from symdh.frames.story import Assignment, OriginRule, Step, XRule
+from symdh.mechanism import ZERO, JointAxis, Mechanism
 from symdh.motion import Word, rotation
 from symdh.robot import Axis, Convention, Joint, JointType, MotionKind, Robot
 
@@ -51,6 +53,8 @@ def assign_frames(mechanism: Mechanism, convention: Convention | None = None) ->
     if not mechanism.axes:
         raise UnsupportedError("a mechanism needs at least one joint")
     convention = convention or mechanism.convention or Convention.STANDARD
+    if mechanism.poses:
+        return _of_given_frames(mechanism, convention)
     settled = settle(mechanism)
     snaps = list(settled.snaps)
     if convention is Convention.STANDARD:
@@ -68,6 +72,35 @@ def assign_frames(mechanism: Mechanism, convention: Convention | None = None) ->
     return Assignment(
         mechanism, convention, robot, tuple(steps), tuple(measured), tuple(snaps), exact
     )
+
+
+def _of_given_frames(mechanism: Mechanism, convention: Convention) -> Assignment:
+    """Return the table of frames that are given outright, the axes read off them."""
+    tolerance = mechanism.tolerance
+    measured = read_frames(mechanism.poses, convention, tolerance)
+    exact = _obeys_exactly(mechanism, convention)
+    frames = [placed(pose) for pose in mechanism.poses]
+    own = frames[:-1] if convention is Convention.STANDARD else frames[1:]
+    axes = tuple(
+        replace(axis, point=frame.origin, direction=v.negate(frame.z) if axis.reverse else frame.z)
+        for axis, frame in zip(mechanism.axes, own, strict=True)
+    )
+    mechanism = replace(mechanism, axes=axes)
+    rules = (OriginRule.GIVEN, XRule.GIVEN)
+    steps = [Step(i, None, None, *rules, False, frame) for i, frame in enumerate(frames)]
+    lines = tuple(Line(axis.point, axis.direction) for axis in axes)
+    settled = Settled(lines, (), tolerance, ZERO, exact)
+    rows = list(measured) if exact else [_neat(each, settled) for each in measured]
+    robot = _table(mechanism, convention, steps, rows, settled, exact)
+    return Assignment(mechanism, convention, robot, tuple(steps), tuple(rows), (), exact)
+
+
+def _obeys_exactly(mechanism: Mechanism, convention: Convention) -> bool:
+    try:
+        check_frames(mechanism.poses, convention)
+    except AssignmentError:
+        return False
+    return True
 
 
 def _table(

@@ -93,7 +93,7 @@ class Chooser:
         if not line.holds(wanted, self.settled.linear):
             message = f"this point is not on the z axis of frame {number}"
             raise AssignmentError([Fault(subject, message)])
-        return wanted, OriginRule.CHOSEN
+        return line.nearest(wanted), OriginRule.CHOSEN
 
     def _x(
         self, number: int, choice: FrameChoice, default: Default, line: Line
@@ -104,13 +104,12 @@ class Chooser:
             return (v.negate(default.x) if reverse else default.x), rule
         subject = ("frame", number, "x")
         x, _ = checked_unit(choice.x, subject, self.settled.angular)
-        if not is_small(v.dot(x, line.direction), self.settled.angular):
+        limit = ZERO if self.settled.exact else self.settled.angular
+        if not is_small(v.dot(x, line.direction), limit):
             message = f"x of frame {number} must be at right angles to its z axis"
             raise AssignmentError([Fault(subject, message)])
         crossed = v.cross(v.unit(default.x), x)
-        if not default.free_x and not all(
-            is_small(entry, self.settled.angular) for entry in crossed
-        ):
+        if not default.free_x and not all(is_small(entry, limit) for entry in crossed):
             wanted = shown(v.unit(default.x))
             message = f"x of frame {number} lies along the common normal: {wanted} or its opposite"
             raise AssignmentError([Fault(subject, message)])

@@ -53,13 +53,33 @@ def tidy(e: Expr) -> Expr:
         return _tidy_number(e)
     e = expand(e)
     if any(power.exp.is_negative and power.free_symbols for power in e.atoms(Pow)):
-        e = expand(cancel(e))
+        e = _cancelled(e)
     e = expand(e.replace(_is_square_of_sine, _by_cosine))
     found: dict[Expr, Expr] = {}
     for term in Add.make_args(e):
         constant, rest = term.as_independent(*term.free_symbols, as_Add=False)
         found[rest] = found.get(rest, _ZERO) + constant
     return Add(*(tidy(constant) * rest for rest, constant in found.items()))
+
+
+def _cancelled(e: Expr) -> Expr:
+    """Cancel quotients, separately for each product of lengths that they stand before."""
+    lengths = e.free_symbols - _symbols_of_angles(e)
+    found: dict[Expr, Expr] = {}
+    for term in Add.make_args(e):
+        quotient, rest = term.as_independent(*lengths, as_Add=False)
+        found[rest] = found.get(rest, _ZERO) + quotient
+    return expand(Add(*(_shortest_quotient(q) * rest for rest, q in found.items())))
+
+
+def _shortest_quotient(e: Expr) -> Expr:
+    """Return a quotient cancelled as it stands, or with squares of cosines as those of sines."""
+    forms = (cancel(e), cancel(e.replace(_is_square_of_cosine, _by_sine)))
+    return min(forms, key=lambda form: int(form.count_ops()))
+
+
+def _symbols_of_angles(e: Expr) -> set[Symbol]:
+    return {symbol for function in e.atoms(sin, cos) for symbol in function.free_symbols}
 
 
 def is_zero(e: Expr) -> bool:
@@ -230,11 +250,7 @@ def _roots_left(e: Expr) -> tuple[int, int]:
 
 def _guess_angle(sine: Expr, cosine: Expr) -> Expr | None:
     """Guess a sum of angles that are symbols, and a constant, from values at a few points."""
-    inside = {
-        symbol
-        for function in (sine.atoms(sin, cos) | cosine.atoms(sin, cos))
-        for symbol in function.free_symbols
-    }
+    inside = _symbols_of_angles(sine) | _symbols_of_angles(cosine)
     symbols = in_name_order(sine.free_symbols | cosine.free_symbols)
     start = {symbol: Rational(3 + number, 17 + 4 * number) for number, symbol in enumerate(symbols)}
     first = _value(sine, cosine, start)

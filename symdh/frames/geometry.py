@@ -104,6 +104,12 @@ def is_small(e: Expr, limit: Expr) -> bool:
     return limit != 0 and not e.free_symbols and bool(abs(number(e)) <= limit)
 
 
+def plain(e: Expr) -> str:
+    """Write a number for a message: short ones exactly, others rounded."""
+    exact = str(e)
+    return exact if e.free_symbols or len(exact) < 12 else f"{float(number(e)):.6g}"
+
+
 def number(e: Expr) -> Float:
     """Return the value of a constant."""
     return e.evalf(30)

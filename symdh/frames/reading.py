@@ -11,21 +11,21 @@ from symdh.frames import vectors as v
 from symdh.frames.choices import shown
 from symdh.frames.exact import tidy
 from symdh.frames.faults import AssignmentError, Fault
-from symdh.frames.geometry import Line, is_small, number, relate
+from symdh.frames.geometry import Line, is_small, number, plain, relate
 from symdh.frames.placed import Measured, PlacedFrame, measure
-from symdh.mechanism import ZERO, Vector
+from symdh.mechanism import ZERO, Pose, Vector
 from symdh.robot import Convention
 
 
 def read_frames(
-    matrices: Sequence[Matrix], convention: Convention, tolerance: Expr = ZERO
+    poses: Sequence[Pose], convention: Convention, tolerance: Expr = ZERO
 ) -> tuple[Measured, ...]:
     """Return theta, d, a and alpha between neighbouring frames.
 
     Parameters
     ----------
-    matrices : sequence of 4x4 Matrix
-        The poses of frames L_0 .. L_n in one common frame; exact.
+    poses : sequence of Pose
+        Frames L_0 .. L_n in one common frame; exact. `pose_of_matrix` makes them from matrices.
     convention : Convention
     tolerance : Expr
         How far numbers may miss the conditions: radians, and the length unit.
@@ -38,42 +38,52 @@ def read_frames(
     Raises
     ------
     AssignmentError
-        When a matrix is no pose, or neighbours break a Denavit-Hartenberg condition: x_i is
+        When a pose is none, or neighbours break a Denavit-Hartenberg condition: x_i is
         perpendicular to z_{i-1}, and meets it (modified: x_{i-1} and z_i). It names every one
         that fails, with its frame.
     """
-    faults: list[Fault] = []
-    frames = []
-    for i, matrix in enumerate(matrices):
-        fault = _why_no_pose(i, matrix, tolerance)
-        if fault is not None:
-            faults.append(fault)
-        else:
-            frames.append(_placed(matrix))
-    if not faults:
-        for i in range(1, len(frames)):
-            faults += _broken(i, frames[i - 1], frames[i], convention, tolerance)
-    if faults:
-        raise AssignmentError(faults)
+    check_frames(poses, convention, tolerance)
+    frames = [placed(pose) for pose in poses]
     return tuple(measure(before, after, convention) for before, after in pairwise(frames))
 
 
-def _placed(matrix: Matrix) -> PlacedFrame:
-    return PlacedFrame(_column(matrix, 3), _column(matrix, 0), _column(matrix, 2))
+def pose_of_matrix(matrix: Matrix) -> Pose:
+    """Return the columns of a homogeneous 4x4 (or 3x4) matrix."""
+    x, y, z, origin = (_column(matrix, k) for k in range(4))
+    return x, y, z, origin
+
+
+def check_frames(poses: Sequence[Pose], convention: Convention, tolerance: Expr = ZERO) -> None:
+    """Check that frames obey the Denavit-Hartenberg conditions; see `read_frames`.
+
+    Raises
+    ------
+    AssignmentError
+    """
+    numbered = list(enumerate(poses))
+    faults = [fault for i, pose in numbered if (fault := _why_no_pose(i, pose, tolerance))]
+    if not faults:
+        frames = [placed(pose) for pose in poses]
+        for i, (before, after) in enumerate(pairwise(frames), start=1):
+            faults += _broken(i, before, after, convention, tolerance)
+    if faults:
+        raise AssignmentError(faults)
+
+
+def placed(pose: Pose) -> PlacedFrame:
+    """Return a pose as a placed frame."""
+    x, _, z, origin = pose
+    return PlacedFrame(origin, x, z)
 
 
 def _column(matrix: Matrix, k: int) -> Vector:
     return tidy(matrix[0, k]), tidy(matrix[1, k]), tidy(matrix[2, k])
 
 
-def _why_no_pose(i: int, matrix: Matrix, tolerance: Expr) -> Fault | None:
-    """Say why a matrix is no pose of a right-handed frame."""
+def _why_no_pose(i: int, pose: Pose, tolerance: Expr) -> Fault | None:
+    """Say why columns are no right-handed frame."""
     subject = ("matrix", i)
-    if matrix.shape != (4, 4):
-        return Fault(subject, f"frame {i} needs a 4x4 matrix")
-    if list(matrix.row(3)) != [0, 0, 0, 1]:
-        return Fault(subject, f"the last row of frame {i} must be 0 0 0 1")
-    columns = [_column(matrix, k) for k in range(3)]
+    columns = pose[:3]
     for name, column in zip("xyz", columns, strict=True):
         if not is_small(v.dot(column, column) - 1, tolerance):
             return Fault(subject, f"{name}_{i} is no unit vector: {shown(column)}")
@@ -81,7 +91,7 @@ def _why_no_pose(i: int, matrix: Matrix, tolerance: Expr) -> Fault | None:
         if not is_small(v.dot(columns[first], columns[second]), tolerance):
             names = f"{'xyz'[first]}_{i} and {'xyz'[second]}_{i}"
             return Fault(subject, f"{names} are not at right angles")
-    if v.dot(v.cross(columns[0], columns[1]), columns[2]).evalf(15) < 0:
+    if not is_small(v.dot(v.cross(columns[0], columns[1]), columns[2]) - 1, 4 * tolerance):
         return Fault(subject, f"frame {i} is left-handed: z must be x × y")
     return None
 
@@ -108,7 +118,7 @@ def _broken(
     if not all(is_small(entry, tolerance) for entry in gap):
         message = (
             f"{names[0]} does not meet {names[1]}: they pass at a distance of "
-            f"{_plain(v.length(gap))}, {names[0]} at {shown(pair.feet[0])} and "
+            f"{plain(v.length(gap))}, {names[0]} at {shown(pair.feet[0])} and "
             f"{names[1]} at {shown(pair.feet[1])}"
         )
         faults.append(Fault(("matrix", i), message))
@@ -120,7 +130,3 @@ def _angle_in_words(cosine: Expr) -> str:
         return f"their product is {cosine}"
     degrees = number(acos(cosine) * 180 / pi)
     return f"they make an angle of {float(degrees):.6g} deg"
-
-
-def _plain(e: Expr) -> str:
-    return str(e) if e.free_symbols or e.is_Rational else f"{float(number(e)):.6g}"

@@ -21,6 +21,7 @@ from symdh.mechanism import ZERO, Mechanism, Vector
 #: Digits that rounded numbers are carried with, and what a table keeps of them.
 CARRIED = 30
 KEPT = 15
+ROUNDING = 1e-12
 _NOTHING = Rational(1, 10**25)
 
 
@@ -37,12 +38,19 @@ class Snap:
         How far it was off: radians, or the length unit.
     angular : bool
         Whether `miss` is an angle.
+    plain : bool
+        Whether `miss` is a plain number: that of a unit vector's length.
     """
 
     subject: Subject
     taken_as: str
     miss: float
     angular: bool
+    plain: bool = False
+
+    def unit(self, length: str) -> str:
+        """Return the unit of `miss`, where `length` is that of lengths."""
+        return "" if self.plain else "rad" if self.angular else length
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,14 +95,18 @@ def settle(mechanism: Mechanism) -> Settled:
             faults += problem.faults
             continue
         if miss:
-            snaps.append(Snap(subject, f"axis {joint}: a unit vector", miss, angular=True))
+            taken_as = f"axis {joint}: a unit vector"
+            snaps.append(Snap(subject, taken_as, miss, angular=False, plain=True))
         lines.append(Line(axis.point, v.negate(direction) if axis.reverse else direction))
     if faults:
         raise AssignmentError(faults)
     settled = lines[:1]
     for joint, line in enumerate(lines[1:], start=2):
         settled.append(_beside(settled[-1], line, joint, angular, linear, snaps))
-    return Settled(tuple(settled), tuple(snaps), angular, linear, exact=not snaps)
+    # What double precision leaves is rounding, but nothing that anybody needs to be told.
+    told = tuple(snap for snap in snaps if snap.miss > ROUNDING)
+    exact = not snaps and _has_exact_vectors(mechanism)
+    return Settled(tuple(settled), told, angular, linear, exact)
 
 
 def checked_unit(direction: Vector, subject: Subject, tolerance: Expr) -> tuple[Vector, float]:
@@ -178,6 +190,17 @@ def _note_near_relations(
         taken_as = f"axis {joint}: meets axis {joint - 1}"
         miss = float(abs(number(distance)))
         snaps.append(Snap(("joint", joint, "point"), taken_as, miss, angular=False))
+
+
+def _has_exact_vectors(mechanism: Mechanism) -> bool:
+    """Say whether tool and choices hold exact unit vectors, the tool's at right angles."""
+    tool = mechanism.tool
+    given = [choice.x for choice in mechanism.choices.values()]
+    if tool is not None:
+        given += [tool.approach, tool.sliding]
+        if tool.approach and tool.sliding and not is_zero(v.dot(tool.approach, tool.sliding)):
+            return False
+    return all(is_zero(v.dot(each, each) - 1) for each in given if each is not None)
 
 
 def _size(mechanism: Mechanism) -> Expr:

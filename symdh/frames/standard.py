@@ -7,9 +7,9 @@ from sympy import Expr
 from symdh.frames import vectors as v
 from symdh.frames.choices import Chooser, Default, world_x
 from symdh.frames.faults import AssignmentError, Fault
-from symdh.frames.geometry import Line, Pair, Relation, is_small, number, relate
+from symdh.frames.geometry import Line, Pair, Relation, is_small, number, plain, relate
 from symdh.frames.placed import PlacedFrame
-from symdh.frames.settle import Settled, Snap, checked_unit
+from symdh.frames.settle import ROUNDING, Settled, Snap, checked_unit
 from symdh.frames.story import OriginRule, Step, XRule
 from symdh.mechanism import Last, Mechanism, ToolFrame
 
@@ -74,7 +74,7 @@ def _last(chooser: Chooser, before: PlacedFrame) -> tuple[Step, list[Snap]]:
             snaps = [
                 Snap(("tool",), f"frame {n}: obeys the rules at the tool", size, angular)
                 for m, angular in zip(misses, (True, False), strict=True)
-                if (size := abs(float(number(m))) if not m.free_symbols else 0.0)
+                if (size := abs(float(number(m))) if not m.free_symbols else 0.0) > ROUNDING
             ]
             rules = (OriginRule.TOOL, XRule.TOOL_NORMAL)
             return Step(n, None, None, *rules, reversed_x=False, bare=aimed), snaps
@@ -129,7 +129,8 @@ def _misses(before: PlacedFrame, aimed: PlacedFrame) -> tuple[Expr, Expr]:
 def _why_out_of_reach(n: int, misses: tuple[Expr, Expr], limits: tuple[Expr, Expr]) -> str:
     cosine, distance = misses
     if not is_small(cosine, limits[0]):
-        why = f"x_{n} (normal) is not perpendicular to z_{n - 1}: their product is {cosine}"
+        why = f"x_{n} (normal) is not perpendicular to z_{n - 1}: their product is {plain(cosine)}"
     else:
-        why = f"x_{n} (normal) does not meet z_{n - 1}: they pass at a distance of {abs(distance)}"
+        apart = plain(abs(distance))
+        why = f"x_{n} (normal) does not meet z_{n - 1}: they pass at a distance of {apart}"
     return f"no row reaches this tool, as {why}; write `last: joint` to reach it by a tool word"

@@ -26,6 +26,7 @@ class OriginRule(Enum):
     NO_OFFSET = auto()  # the last frame: d is zero but for the variable
     TOOL = auto()  # the tip of the tool
     CHOSEN = auto()
+    GIVEN = auto()  # the whole frame is
 
 
 class XRule(Enum):
@@ -40,6 +41,7 @@ class XRule(Enum):
     TOOL_NORMAL = auto()  # sliding x approach
     TOWARDS_TOOL = auto()  # from the last axis to the tip
     CHOSEN = auto()
+    GIVEN = auto()
 
 
 @dataclass(frozen=True, slots=True)

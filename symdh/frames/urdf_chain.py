@@ -35,11 +35,18 @@ from symdh.table.urdf import Placement, UrdfChain, UrdfJoint, UrdfJointType
 PLACES = 15
 """Decimal places of a parameter that is neither a rational number nor a simple part of pi."""
 
+FINEST = Rational(1, 10**8)
+"""Axes nearer than this to parallel always count as such, whatever the tolerance.
+
+Frames of axes at an angle e are some L/e away; in a table of 15 digits that costs 1e-15 L/e, more
+than the e L that the angle is worth.
+"""
+
 _DIGITS = 50
 #: Steps of a quaternion's components: the rotation is off by less than a double could tell.
 _STEPS = Integer(10) ** 17
 #: The cosine and sine of these parts of pi are short roots; exact geometry stays cheap with them.
-_FINEST = 12
+_STEPS_OF_PI = 12
 _TYPES = {
     UrdfJointType.REVOLUTE: JointType.REVOLUTE,
     UrdfJointType.CONTINUOUS: JointType.REVOLUTE,
@@ -74,7 +81,7 @@ def table_of_chain(chain: UrdfChain, convention: Convention, tolerance: Expr) ->
     chain : UrdfChain
     convention : Convention
     tolerance : Expr
-        What is nearer than this to parallel or to meeting counts as such; see
+        What is nearer than this to parallel or to meeting counts as such, `FINEST` at least; see
         `symdh.mechanism.TOLERANCE`.
 
     Returns
@@ -128,7 +135,7 @@ def mechanism_of_chain(chain: UrdfChain, tolerance: Expr) -> Mechanism:
         name=default_name(f"{chain.name}.urdf"),
         axes=tuple(axes),
         tool=ToolFrame(_origin(tip), approach=_column(tip, 2), sliding=_column(tip, 1)),
-        tolerance=tolerance,
+        tolerance=max(tolerance, FINEST),
         limits=limits,
         title=_title(chain),
         units=Units(AngleUnit.DEGREE, LengthUnit.METRE),
@@ -179,7 +186,7 @@ def _angle(motion: Motion) -> Iterator[Expr]:
 
 def _is_simple(angle: Expr) -> bool:
     part = angle / pi
-    return bool(part.is_Rational) and _FINEST % int(part.q) == 0
+    return bool(part.is_Rational) and _STEPS_OF_PI % int(part.q) == 0
 
 
 def _rational_pose(word: Word) -> ImmutableMatrix:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sympy import Expr
+from sympy import Expr, Pow
 
 from symdh.frames.exact import common_factor, is_zero, root, tidy
 from symdh.mechanism import ONE, ZERO, Vector
@@ -83,6 +83,9 @@ def ray(a: Vector) -> Vector:
     if shared != 1:
         return ray(scale(1 / shared, a))
     size = length(a)
-    if size.is_Rational or any(entry.free_symbols for entry in a):
-        return scale(1 / size, a)
-    return a
+    return a if _has_root(size) else scale(1 / size, a)
+
+
+def _has_root(e: Expr) -> bool:
+    """Say whether a root is in an expression."""
+    return any(not power.exp.is_Integer for power in e.atoms(Pow))

@@ -15,10 +15,10 @@ from symdh.motion.size import closed_form_size
 from symdh.robot import Robot
 
 #: Operations in the nine rotation entries past which no closed form is written out. A nested form
-#: grows by 1.6 with each joint at a right angle to its neighbours, and ten of them need 2,683; a
+#: grows by 1.6 with each joint at a right angle to its neighbours, and nine of them need 1,641; a
 #: twist that is a symbol counts as one joint more. Beyond it the recursion says more, and
 #: generated code stays linear anyway.
-CLOSED_FORM_LIMIT = 4000
+CLOSED_FORM_LIMIT = 2000
 
 
 def link_transform(robot: Robot, i: int) -> ImmutableMatrix:

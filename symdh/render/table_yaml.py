@@ -14,6 +14,7 @@ from symdh.notation.writing import is_decimal
 from symdh.robot import Joint, JointType, Motion, MotionKind, Robot, in_name_order
 from symdh.table import ANGLE, symbol_dimension
 from symdh.table.lexer import MAX_EXPRESSION
+from symdh.table.quantity import MAX_BITS
 
 _QUOTED = set(",[]{}:#&*!|>'\"%@`")
 _MAX_DIGITS = 20
@@ -116,11 +117,13 @@ def _limits(robot: Robot) -> str:
 
 def length_text(expression: Expr) -> str:
     """Write a length, or a plain number."""
+    _check_numbers(expression)
     return _checked(_Printer().doprint(expression))
 
 
 def angle_text(expression: Expr) -> str:
     """Write an angle; its constants carry their units, so that no table reads them otherwise."""
+    _check_numbers(expression)
     terms = Add.make_args(expression)
     named = sorted((t for t in terms if t.free_symbols), key=_name_key)
     constants = sorted((t for t in terms if not t.free_symbols), key=str)
@@ -175,6 +178,17 @@ class _Printer(StrPrinter):  # type: ignore[misc]
         return f"{type(expression).__name__}({angle_text(expression.args[0])})"
 
     _print_sin = _print_cos = _print_tan = _of_an_angle
+
+
+def _check_numbers(expression: Expr) -> None:
+    """Refuse numbers that a reader of tables would refuse."""
+    for number in expression.atoms(Rational):
+        bits = max(int(number.p).bit_length(), int(number.q).bit_length())
+        if bits > MAX_BITS:
+            raise LimitError(
+                f"a number of this table has {bits} bits, over the limit of {MAX_BITS}; "
+                "give the axes with fewer digits"
+            )
 
 
 def _checked(text: str) -> str:

@@ -6,6 +6,9 @@ joints:
   - {variable: theta1, point: [0, 0, 0], direction: [0, 0, 1]}
   - {variable: theta2, point: [a1, 0, 0], direction: [0, 0, 1]}
 tool: {point: [a1 + a2, 0, 0], approach: [0, 0, 1], sliding: [0, 1, 0]}
+
+In place of points and directions the frames themselves may be given: ``matrices``, a list of
+poses by rows.
 """
 
 from __future__ import annotations
@@ -25,6 +28,7 @@ from symdh.mechanism import (
     JointAxis,
     Last,
     Mechanism,
+    Pose,
     ToolFrame,
     Vector,
 )
@@ -49,7 +53,7 @@ _T = TypeVar("_T")
 
 KEYS = (
     *("name", "title", "convention", "units", "joints", "tool", "frames", "last", "tolerance"),
-    *("values", "limits", "notes"),
+    *("matrices", "values", "limits", "notes"),
 )
 JOINT_KEYS = ("type", "variable", "point", "direction", "home", "z", "notes")
 TOOL_KEYS = ("point", "approach", "sliding", "normal")
@@ -57,6 +61,8 @@ FRAME_KEYS = ("x", "origin")
 _ALIASES = {"axes": "joints", "q": "variable", "axis": "direction", "position": "point"}
 _EXTENSION = "x-"
 _REVERSE = "reverse"
+_LOCATION = ("point", "direction")
+_NOWHERE: Vector = (ZERO, ZERO, ZERO)
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _TYPES = {name: kind for name, kind in TYPES.items() if kind is not JointType.FIXED}
 
@@ -120,7 +126,14 @@ class _Reader:
         )
         name = read_name(sections["name"], report) if "name" in sections else None
         title = read_title(sections["title"], report) if "title" in sections else None
-        axes = self._joints(sections.get("joints"))
+        matrices = sections.get("matrices")
+        poses = self._matrices(matrices)
+        if matrices is None:
+            axes = self._joints(sections.get("joints"))
+        else:
+            # Counted as they stand in the file: a frame with an error still has its joint.
+            written = len(matrices.items) if isinstance(matrices, SequenceNode) else 1
+            axes = self._given_joints(written - 1, sections.get("joints"))
         tool = self._tool(sections.get("tool"))
         choices = self._frames(sections.get("frames"), len(axes))
         last = self._last(sections.get("last"))
@@ -142,6 +155,7 @@ class _Reader:
             last=last,
             tolerance=tolerance,
             convention=convention,
+            poses=tuple(poses),
             values=values,
             limits=limits,
             title=title,
@@ -164,6 +178,60 @@ class _Reader:
                 self.report.error(key.place(), f"key {brief(key.text)} unknown in {where}{hint}")
         return found
 
+    def _matrices(self, node: Node | None) -> list[Pose]:
+        """Read frames L_0 .. L_n, each as three or four rows of four numbers."""
+        if node is None:
+            return []
+        if not isinstance(node, SequenceNode) or len(node.items) < 2:
+            self.report.error(node.place(), "matrices must be a list of two frames or more")
+            return []
+        poses = []
+        for number, item in enumerate(node.items):
+            self.places["matrix", number] = item.place()
+            pose = self._pose(number, item)
+            if pose is not None:
+                poses.append(pose)
+        return poses
+
+    def _pose(self, number: int, node: Node) -> Pose | None:
+        rows = (
+            [row for row in node.items if isinstance(row, SequenceNode)]
+            if (isinstance(node, SequenceNode))
+            else []
+        )
+        if [len(row.items) for row in rows] not in ([4] * 3, [4] * 4):
+            self.report.error(node.place(), f"frame {number} needs three rows of four numbers")
+            return None
+        cells = [
+            self._cell(item, LENGTH if k == 3 else NUMBER)
+            for row in rows[:3]
+            for k, item in enumerate(row.items)
+        ]
+        values = [cell.value for cell in cells if cell is not None]
+        if len(values) != 12:
+            return None
+        bottom = [self._cell(item, NUMBER) for row in rows[3:] for item in row.items]
+        if bottom and [cell and cell.value for cell in bottom] != [0, 0, 0, 1]:
+            self.report.error(rows[3].place(), "the last row of a pose is [0, 0, 0, 1]")
+            return None
+        x, y, z, origin = ((values[k], values[k + 4], values[k + 8]) for k in range(4))
+        return x, y, z, origin
+
+    def _given_joints(self, count: int, node: Node | None) -> list[JointAxis]:
+        """Read the joints between given frames: what they do, not where they are."""
+        if node is None:
+            names = (Symbol(f"theta{k}", real=True) for k in range(1, count + 1))
+            return [JointAxis(JointType.REVOLUTE, _NOWHERE, _NOWHERE, name) for name in names]
+        if not isinstance(node, SequenceNode) or len(node.items) != count:
+            self.report.error(node.place(), f"{count + 1} frames need {count} joints")
+            return []
+        axes: list[JointAxis] = []
+        for number, item in enumerate(node.items, start=1):
+            axis = self._joint(number, item, axes, located=False)
+            if axis is not None:
+                axes.append(axis)
+        return axes
+
     def _joints(self, node: Node | None) -> list[JointAxis]:
         if node is None:
             self.report.error(START, "joints is missing: the list of joint axes")
@@ -182,21 +250,27 @@ class _Reader:
                 axes.append(axis)
         return axes
 
-    def _joint(self, number: int, node: Node, before: Sequence[JointAxis]) -> JointAxis | None:
+    def _joint(
+        self, number: int, node: Node, before: Sequence[JointAxis], located: bool = True
+    ) -> JointAxis | None:
         self.places["joint", number] = node.place()
         if not isinstance(node, MappingNode):
             self.report.error(node.place(), f"joint {number} must be a mapping: {{point: ...}}")
             return None
-        keys = self._mapping(node, JOINT_KEYS, f"joint {number}")
-        for key in ("point", "direction"):
+        known = JOINT_KEYS if located else [k for k in JOINT_KEYS if k not in _LOCATION]
+        keys = self._mapping(node, known, f"joint {number}")
+        for key in _LOCATION if located else ():
             if key not in keys:
                 self.report.error(node.place(), f"missing key {key} in joint {number}")
             else:
                 self.places["joint", number, key] = keys[key].place()
         kind = self._word(keys.get("type"), "type of joint", _TYPES, JointType.REVOLUTE)
         variable = self._variable(number, kind, keys.get("variable"), before)
-        point = self._vector(keys.get("point"), LENGTH, "point")
-        direction = self._vector(keys.get("direction"), NUMBER, "direction")
+        point: Vector | None = _NOWHERE
+        direction: Vector | None = _NOWHERE
+        if located:
+            point = self._vector(keys.get("point"), LENGTH, "point")
+            direction = self._vector(keys.get("direction"), NUMBER, "direction")
         home = self._cell(keys.get("home"), _dimension(kind))
         backwards = self._word(keys.get("z"), "value of z", {"along": False, _REVERSE: True}, False)
         if point is None or direction is None or variable is None:

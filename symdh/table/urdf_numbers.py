@@ -33,7 +33,9 @@ _MAX_TURNS = 2
 _DECIMAL = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE]([-+]?\d+))?")
 _WORD = re.compile(r"\S+")
 #: How far from 1 the length of an axis may be: three digits of 0.577 or 0.707 make 8e-4.
-_UNIT_ERROR = Rational(1, 1000)
+_UNIT_ERROR = 1e-3
+#: Axes along the diagonals of a cube, a square or a hexagon have the roots of such parts of 1.
+_SIMPLE = 12
 
 Reader = Callable[[str], Expr]
 Triple = tuple[Expr, Expr, Expr]
@@ -131,37 +133,47 @@ class NumberReader:
         return None
 
     def unit_vector(self, vector: Triple, given: Attribute) -> Triple:
-        """Return a vector of length 1, as far as rationals and simple roots can have it.
+        """Return a vector brought to length 1.
 
-        One that is off by a few rounded digits is brought to length 1, with a warning; one that
-        is far off is an error, because nobody can say what was meant.
+        One that is off by a few rounded digits gets a warning; one that is far off is an error,
+        because nobody can say what was meant.
         """
         square = sum((entry**2 for entry in vector), ZERO)
         if square == 1:
             return vector
         if square == 0:
             self.report.error(given.place(), "the axis is zero and has no direction")
-        elif abs(square - 1) > 2 * _UNIT_ERROR:
-            size = float(sqrt(square))
-            message = f"the axis has length {size:.6g}, and a unit vector is wanted"
+            return vector
+        size = sqrt(square)
+        miss = abs(float(size) - 1)
+        if miss > _UNIT_ERROR:
+            message = f"the axis has length {float(size):.6g}, and a unit vector is wanted"
             self.report.error(given.place(), message)
-        else:
-            x, y, z = (_entry_of_unit_vector(entry, square) for entry in vector)
-            if x**2 + y**2 + z**2 == 1:
-                self._snap(given.text.strip(), ZERO + 1, abs(float(sqrt(square)) - 1))
-                return x, y, z
-            self.report.warning(given.place(), "the axis is not quite of length 1; made so")
-            size = sqrt(square)
-            return vector[0] / size, vector[1] / size, vector[2] / size
-        return vector
+        elif miss > self.tolerance:
+            message = f"the axis has length {float(size):.6g}; read as a unit vector"
+            self.report.warning(given.place(), message)
+        return self._simple(vector, square) or (
+            vector[0] / size,
+            vector[1] / size,
+            vector[2] / size,
+        )
+
+    def _simple(self, vector: Triple, square: Expr) -> Triple | None:
+        """Return the roots of simple fractions that the entries of a unit vector stand for."""
+        parts = [(entry**2 / square).limit_denominator(_SIMPLE) for entry in vector]
+        x, y, z = (root_of(part, entry) for part, entry in zip(parts, vector, strict=True))
+        if sum(parts, ZERO) != 1:
+            return None
+        for exact, entry in zip((x, y, z), vector, strict=True):
+            near = abs(float(exact) - float(entry) / math.sqrt(square)) <= self.tolerance
+            if not near or (exact == 0) != (entry == 0):
+                return None
+        return x, y, z
 
 
-def _entry_of_unit_vector(entry: Expr, square: Expr) -> Expr:
-    """Return the root of a simple fraction that an entry of a rounded unit vector stands for."""
-    part = entry**2 / square
-    close = part.limit_denominator(12)
-    exact = sqrt(close) if abs(part - close) < 2 * _UNIT_ERROR else sqrt(part)
-    return exact if entry > 0 else -exact
+def root_of(part: Expr, entry: Expr) -> Expr:
+    """Return the square root of `part` with the sign of `entry`."""
+    return sqrt(part) if entry > 0 else -sqrt(part)
 
 
 def _why_no_number(text: str) -> str | None:

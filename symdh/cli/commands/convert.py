@@ -60,7 +60,7 @@ def convert(
     output: str | None,
     force: bool,
 ) -> None:
-    """Write a table in the other convention or another format, or make a table of a URDF file.
+    """Write a table in another convention or format, or from URDF.
 
     The pose is the same for every q: base and tool take what the rows of the other convention
     have no place for. TABLE is a table or a URDF file, or - for standard input.
@@ -139,8 +139,8 @@ def _taken(chain: UrdfChain, found: ImportedChain) -> list[str]:
         largest = max(snap.change for snap in chain.snaps)
         lines.append(f"read {', '.join(read)}; off by {largest:.1e} at most")
     for snap in found.snaps:
-        unit = "rad" if snap.angular else "m"
-        lines.append(f"{snap.taken_as} within the tolerance, off by {snap.miss:.1e} {unit}")
+        off = f"{snap.miss:.1e} {snap.unit('m')}".rstrip()
+        lines.append(f"{snap.taken_as} within the tolerance, off by {off}")
     return lines
 
 

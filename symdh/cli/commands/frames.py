@@ -75,8 +75,9 @@ def _assignment(axes: str, convention: str | None) -> Assignment:
     except AssignmentError as problem:
         raise located(loaded, [(f.subject, f.message) for f in problem.faults]) from None
     for snap in found.snaps:
-        unit = "rad" if snap.angular else "in length"
-        message = f"{snap.taken_as} within the tolerance, off by {snap.miss:.2g} {unit}"
+        length = found.robot.units.length
+        unit = snap.unit(length.value if length else "")
+        message = f"{snap.taken_as} within the tolerance, off by {snap.miss:.2g} {unit}".rstrip()
         console.show_diagnostics([loaded.warning(snap.subject, message)])
     return found
 

@@ -55,7 +55,7 @@ def task(
     output: str | None,
     force: bool,
 ) -> None:
-    """Print a task vector r = f(q) and its derivative, the analytic Jacobian.
+    """Print a task vector r = f(q) and its derivative.
 
     Without --vector the components follow from the arm: a position and one angle where all
     revolute axes are parallel, else a position with Euler angles.

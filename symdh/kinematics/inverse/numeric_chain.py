@@ -61,7 +61,8 @@ class NumericChain:
         UnsupportedError
             When a parameter has no value.
         """
-        more = {s: Float(extra[s.name], 17) for s in robot.parameters if s.name in (extra or {})}
+        given = extra or {}
+        more = {s: Float(given[s.name], 17) for s in robot.parameters if s.name in given}
         known: dict[Expr, Expr] = {s: v for s, v in robot.values.items() if s in robot.parameters}
         known |= more
         places = {variable: k for k, variable in enumerate(robot.variables)}

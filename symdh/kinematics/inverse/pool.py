@@ -20,15 +20,13 @@ class Source:
     i, j : int
         The product A_{i+1} .. A_j stands alone on its side.
     entries : tuple of (row, column)
-        The entries compared, from 0; more than one where they were squared and added. Column 3
-        is the position.
+        The entries compared, from 0; more than one where they were squared and added, none where
+        two equations were combined. Column 3 is the position.
     inverted : bool
         Whether both sides were inverted before: the base seen from the hand.
     base : tuple of int
         The rows i and j of the product that the equation started from: 0 and n, or the ends of
         the part of the chain that was still open when its pose was named.
-    parents : tuple of Source
-        Two equations that this one was combined from; then it has no entries of its own.
     """
 
     i: int
@@ -36,7 +34,6 @@ class Source:
     entries: tuple[tuple[int, int], ...]
     inverted: bool = False
     base: tuple[int, int] = (0, 0)
-    parents: tuple[Source, ...] = ()
 
     @property
     def moved(self) -> int:
@@ -56,17 +53,23 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class Equation:
-    """``element = 0``, as it was found by comparing entries.
+    """``element = 0``, as it was found.
 
     Attributes
     ----------
     element : Element
         Left side minus right side, reduced.
     source : Source
+    sides : tuple of (left, right)
+        The entries that were compared; each pair was squared before adding where there are more.
+    parents : tuple of Equation
+        Two equations that this one was combined from.
     """
 
     element: Element
     source: Source
+    sides: tuple[tuple[Element, Element], ...] = ()
+    parents: tuple[Equation, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,16 +115,25 @@ class Pool:
     def add_part(self, i_0: int, j_0: int, pose: Pose) -> None:
         """Add the equations of the part A_{i_0 + 1} .. A_{j_0}, whose pose is known now."""
         ring = self.ring
-        for i, j in self._places():
-            if i < i_0 or j > j_0 or i - i_0 + j_0 - j > MOST_MOVED:
-                continue
+        places = (
+            (i, j)
+            for i, j in self._places()
+            if i_0 <= i and j <= j_0 and i - i_0 + j_0 - j <= MOST_MOVED
+        )
+        for i, j in sorted(places, key=lambda ij: (ij[0] - i_0 + j_0 - ij[1], ij[0])):
             left = ring.times(ring.inverse_product(i_0, i), pose) if i > i_0 else pose
             left = ring.times(left, ring.inverse_product(j, j_0)) if j < j_0 else left
             split = Split(i, j, False, left, ring.product(i, j), (i_0, j_0))
             self.splits.append(split)
             self._compare(split)
 
-    def add(self, element: Element, source: Source) -> Equation | None:
+    def add(
+        self,
+        element: Element,
+        source: Source,
+        sides: tuple[tuple[Element, Element], ...] = (),
+        parents: tuple[Equation, ...] = (),
+    ) -> Equation | None:
         """Add an equation unless it is there, empty, or uses what the task does not give."""
         if not element:
             return None
@@ -131,7 +143,7 @@ class Pool:
         if key in self._seen:
             return None
         self._seen.add(key)
-        equation = Equation(element, source)
+        equation = Equation(element, source, sides, parents)
         self.equations.append(equation)
         return equation
 
@@ -141,7 +153,7 @@ class Pool:
             for row in range(3):
                 left, right = _entry(split.left, row, column), _entry(split.right, row, column)
                 source = Source(split.i, split.j, ((row, column),), split.inverted, split.base)
-                self.add(self.ring.reduced(left - right), source)
+                self.add(self.ring.reduced(left - right), source, ((left, right),))
 
     def _splits(self) -> Iterable[Split]:
         ring, n = self.ring, self.ring.arm.robot.n

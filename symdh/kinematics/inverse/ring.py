@@ -151,7 +151,8 @@ class InverseRing:
     def angle(self, form: Form) -> Expr:
         """Return a form as a sum of joint variables."""
         joints = self.arm.robot.joints
-        return Add(*(sign * joints[row - 1].variable for row, sign in form))
+        terms = ((sign, joints[row - 1].variable) for row, sign in form)
+        return Add(*(sign * variable for sign, variable in terms if variable is not None))
 
     def expression(self, element: Element) -> Expr:
         """Return an element as an expanded expression."""
@@ -179,13 +180,13 @@ class InverseRing:
         """
         third = [self.first_goal + 3 * c + 2 for c in range(3)]
         while True:
-            for powers, coefficient in element.terms():
-                found = [k for k in third for _ in range(powers[k])]
-                if len(found) > 1:
-                    break
-            else:
+            square = next(
+                ((m, c) for m, c in element.terms() if sum(m[k] for k in third) > 1), None
+            )
+            if square is None:
                 return element
-            a, b = found[:2]
+            powers, coefficient = square
+            a, b = [k for k in third for _ in range(powers[k])][:2]
             rest = list(powers)
             rest[a] -= 1
             rest[b] -= 1
@@ -236,9 +237,7 @@ class InverseRing:
         rotation = [[self.goal(f"r_{c}{r}") for c in (1, 2, 3)] for r in (1, 2, 3)]
         return Pose(rotation, [self.goal(name) for name in U_NAMES])
 
-    def pair(
-        self, form: Sequence[tuple[int, int]], constant: Expr = Integer(0)
-    ) -> tuple[Element, Element]:
+    def pair(self, form: Sequence[tuple[int, int]], constant: Expr) -> tuple[Element, Element]:
         """Return cosine and sine of a sum of joint angles and a constant."""
         key = (tuple(form), constant)
         if key not in self._pairs:
@@ -401,9 +400,7 @@ class InverseRing:
         """Return names for the entries of two parts: e_11 .. e_33, e_x, e_y, e_z, and f_11 .."""
         robot = self.arm.robot
         used = {symbol.name for symbol in (*robot.parameters, *robot.variables)}
-        stems = next(
-            pair for pair in _STEMS if not any(name.startswith(pair) for name in used)
-        )
+        stems = next(pair for pair in _STEMS if not any(name.startswith(pair) for name in used))
         places = [f"{r}{c}" for r in (1, 2, 3) for c in (1, 2, 3)] + ["x", "y", "z"]
         return [f"{stem}_{place}" for stem in stems for place in places]
 

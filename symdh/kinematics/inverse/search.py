@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from time import process_time
 
@@ -11,14 +11,14 @@ from sympy import Symbol
 from symdh.errors import UnsupportedError
 from symdh.kinematics.inverse.arm import prepare
 from symdh.kinematics.inverse.point import Point
-from symdh.kinematics.inverse.pool import Pool
-from symdh.kinematics.inverse.ring import InverseRing
+from symdh.kinematics.inverse.pool import Equation, Pool
+from symdh.kinematics.inverse.ring import Element, InverseRing
 from symdh.kinematics.inverse.rules.expand import expand_known
 from symdh.kinematics.inverse.rules.half_angle import eliminate
 from symdh.kinematics.inverse.rules.pair import pair_candidates
-from symdh.kinematics.inverse.rules.single import single_candidates
 from symdh.kinematics.inverse.rules.parts import name_part
 from symdh.kinematics.inverse.rules.ratio import add_projections, add_ratios
+from symdh.kinematics.inverse.rules.single import single_candidates
 from symdh.kinematics.inverse.rules.slide import slide_candidates
 from symdh.kinematics.inverse.rules.squares import add_squares
 from symdh.kinematics.inverse.rules.sums import take_sums
@@ -131,7 +131,7 @@ def _needed(ring: InverseRing, steps: list[Step], goals: set[int]) -> tuple[Step
         wanted |= {unknown for _, unknown in step.parts}
         elements = [*step.coefficients, *(used.element for used in step.equations)]
         elements += [e for other in step.alternatives for e in other]
-        elements += [used.raw for used in step.equations]
+        elements += [e for used in step.equations for e in _shown(used.equation)]
         elements += [element for _, element in definitions]
         for element in elements:
             wanted |= unknowns_in(ring, element) - {step.unknown, step.eliminated}
@@ -139,3 +139,13 @@ def _needed(ring: InverseRing, steps: list[Step], goals: set[int]) -> tuple[Step
                 k for powers in element for k in range(ring.first_name, len(powers)) if powers[k]
             }
     return tuple(reversed(kept))
+
+
+def _shown(equation: Equation) -> Iterator[Element]:
+    """Yield all that is printed of an equation."""
+    yield equation.element
+    for left, right in equation.sides:
+        yield left
+        yield right
+    for parent in equation.parents:
+        yield from _shown(parent)

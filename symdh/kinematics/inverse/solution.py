@@ -9,10 +9,10 @@ from functools import cached_property
 from math import prod
 
 from symdh.kinematics.inverse.arm import InverseArm
-from symdh.kinematics.inverse.pool import Source
+from symdh.kinematics.inverse.pool import Equation
 from symdh.kinematics.inverse.ring import Element, InverseRing
 from symdh.kinematics.inverse.structure import Structure
-from symdh.kinematics.inverse.task import InverseTask
+from symdh.kinematics.inverse.task import InverseTask, Kind
 
 
 class Rule(Enum):
@@ -36,15 +36,13 @@ class Used:
 
     Attributes
     ----------
-    source : Source
-    raw : Element
-        As it was found by comparing entries: ``raw = 0``.
+    equation : Equation
+        As it was found: ``equation.element = 0``.
     element : Element
         With sums of angles expanded where the step needs it.
     """
 
-    source: Source
-    raw: Element
+    equation: Equation
     element: Element
 
 
@@ -143,6 +141,23 @@ class ClosedForm:
     @cached_property
     def branch_names(self) -> Mapping[int, tuple[str, ...]]:
         """Names of the branches of each branching step, by its unknown."""
-        from symdh.kinematics.inverse.naming import branch_names
+        return {step.unknown: _names(self, step) for step in self.branching}
 
-        return branch_names(self.ring, self.structure, self.branching)
+
+def _names(form: ClosedForm, step: Step) -> tuple[str, ...]:
+    """Name the branches of a step by the part of the arm that its joint belongs to."""
+    if step.rule is Rule.HALF_ANGLE:
+        return tuple(f"root {k}" for k in range(1, step.branches + 1))
+    if step.rule is Rule.SLIDE_SQUARE:
+        return "plus the root", "minus the root"
+    moving = form.arm.moving
+    rows = {row for row, _ in form.ring.forms[step.unknown]}
+    if len(moving) <= 3 and form.task.kind is not Kind.ORIENTATION and len(form.branching) == 1:
+        return "right-hand solution, elbow down", "left-hand solution, elbow up"
+    if rows <= set(moving[-3:]) and form.task.with_orientation and len(moving) > 4:
+        return "wrist not flipped", "wrist flipped"
+    if form.task.kind is Kind.ORIENTATION:
+        return "not flipped", "flipped"
+    if rows == {moving[0]}:
+        return "left shoulder", "right shoulder"
+    return "elbow up", "elbow down"

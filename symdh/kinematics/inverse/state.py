@@ -30,7 +30,7 @@ class View:
     @property
     def used(self) -> Used:
         """The equation as a step keeps it."""
-        return Used(self.equation.source, self.equation.element, self.element)
+        return Used(self.equation, self.element)
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +55,7 @@ class State:
     views : list of View
     parts : dict of (i, j) to Pose
         The known poses of parts A_{i+1} .. A_j, with names for their entries.
-    projections : list of (angle, Element, Source)
+    projections : list of (angle, Element, Source, parents)
         Equations that are of use once the angle is known.
     """
 
@@ -65,7 +65,9 @@ class State:
     steps: list[Step] = field(default_factory=list)
     views: list[View] = field(default_factory=list)
     parts: dict[tuple[int, int], Pose] = field(default_factory=dict)
-    projections: list[tuple[int, Element, Source]] = field(default_factory=list)
+    projections: list[tuple[int, Element, Source, tuple[Equation, ...]]] = field(
+        default_factory=list
+    )
 
     @property
     def ring(self) -> InverseRing:

@@ -32,9 +32,7 @@ class Structure:
 def structure(robot: Robot) -> Structure:
     """Find the structure of an arm, at two random poses."""
     drawn = random.Random(17)
-    poses = [
-        joint_lines(robot, [drawn.uniform(-3, 3) for _ in robot.variables]) for _ in range(2)
-    ]
+    poses = [joint_lines(robot, [drawn.uniform(-3, 3) for _ in robot.variables]) for _ in range(2)]
     last = [lines[-3:] for lines in poses]
     first = [lines[:3] for lines in poses]
     return Structure(

@@ -20,12 +20,14 @@ from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
-from symdh.kinematics.singular.trig_ring import Element, TrigRing
+from symdh.kinematics.singular.trig_ring import Element, TooLargeError, TrigRing
 
 Powers = tuple[int, ...]
 
-#: Terms of a polynomial past which it is no longer taken apart; it then stays one factor.
+#: Terms of a polynomial in half angles past which it is no longer taken apart; it then stays one
+#: factor. Past the second number it is not even read.
 MAX_TERMS = 600
+MAX_READ = 6000
 
 
 @dataclass(frozen=True)
@@ -73,7 +75,13 @@ class HalfAngles:
         self.ring = PolyRing(names or [Dummy("x")], QQ, lex)
 
     def pieces(self, factors: Iterable[Element]) -> Pieces:
-        """Take a product of elements of the trigonometric ring apart; none of them is zero."""
+        """Take a product of elements of the trigonometric ring apart; none of them is zero.
+
+        Raises
+        ------
+        TooLargeError
+            When one has more than `MAX_READ` terms in half angles.
+        """
         whole = Pieces(Counter(), Counter())
         for factor in factors:
             whole = whole + self._pieces(factor)
@@ -128,13 +136,12 @@ class HalfAngles:
             if degree:
                 image = partial(_in_half_angle, degree)
                 wide = _exchanged(wide, (2 * k, 2 * k + 1), (2 * n + k,), image)
+            if len(wide) > MAX_READ:
+                raise TooLargeError
         total = self.ring.from_dict(_narrowed(self.ring, wide, 2 * n))
         for k in range(n):
-            while degrees[k]:
-                quotient, rest = divmod(total, 1 + gens[k] ** 2)
-                if rest:
-                    break
-                total, degrees[k] = quotient, degrees[k] - 1
+            while degrees[k] and _vanishes_at_i(total, k):
+                total, degrees[k] = total.exquo(1 + gens[k] ** 2), degrees[k] - 1
         return total, degrees
 
     def _split(self, polynomial: Element) -> Iterator[Element]:
@@ -286,6 +293,15 @@ def _convolved(first: Sequence[int], second: Sequence[int]) -> list[int]:
 
 def _degree(element: Element, k: int) -> int:
     return max((powers[k] for powers in element), default=0)
+
+
+def _vanishes_at_i(element: Element, k: int) -> bool:
+    """Say whether 1 + t_k^2 divides an element, which a division would take much longer to tell."""
+    rest: dict[Powers, Any] = {}
+    for powers, coefficient in element.terms():
+        key = (*powers[:k], powers[k] % 2, *powers[k + 1 :])
+        rest[key] = rest.get(key, 0) + coefficient * (-1) ** (powers[k] // 2)
+    return not any(rest.values())
 
 
 def _content(polynomial: Element, k: int) -> Element:

@@ -10,7 +10,7 @@ from math import comb
 
 from sympy import Expr, Integer, Mul, Rational, Symbol, cos, sin
 
-from symdh.errors import DerivationError, UnsupportedError
+from symdh.errors import DerivationError, LimitError, UnsupportedError
 from symdh.kinematics.frame import Frame, checked, last_frame
 from symdh.kinematics.singular.conditions import alternatives
 from symdh.kinematics.singular.determinant import factored_determinant
@@ -22,6 +22,9 @@ from symdh.kinematics.singular.solving import joint_angles, zeros
 from symdh.kinematics.singular.trig_ring import Element, TooLargeError, TrigRing
 from symdh.kinematics.velocity import ORIGIN
 from symdh.robot import Robot
+
+#: Joints past which an arm is not looked at: its minors would be far too many.
+MAX_JOINTS = 8
 
 #: Minors past which a Jacobian that is not square is not taken apart.
 MAX_MINORS = 60
@@ -134,6 +137,8 @@ def singularities(
     ------
     UnsupportedError
         When the robot has no such frame, or no joint moves it.
+    LimitError
+        When more than `MAX_JOINTS` joints move it.
 
     Notes
     -----
@@ -146,6 +151,11 @@ def singularities(
     joints = moving_joints(robot, end)
     if not joints:
         raise UnsupportedError(f"no joint of {robot.name} moves frame {end}")
+    if len(joints) > MAX_JOINTS:
+        raise LimitError(
+            f"frame {end} of {robot.name} is moved by {len(joints)} joints, and singularities are "
+            f"looked for with at most {MAX_JOINTS}; --of chooses a frame nearer to the base"
+        )
     search = _Search(robot, end, joints)
     matrix, rows = search.matrix(at)
     rank = search.rank(matrix, rows)

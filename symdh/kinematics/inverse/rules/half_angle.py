@@ -10,11 +10,11 @@ the cosine and the sine of y. One that is linear in them is an equation like any
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import combinations
 from typing import Any
 
 from symdh.kinematics.inverse.point import Point
-from symdh.kinematics.inverse.pool import Source
 from symdh.kinematics.inverse.ring import Element
 from symdh.kinematics.inverse.rules.laurent import Laurent, eliminated, laurent
 from symdh.kinematics.inverse.solution import Rule, Step
@@ -37,11 +37,11 @@ def eliminate(state: State) -> tuple[Step, ...]:
     best: tuple[tuple[int, int], Step] | None = None
     added = False
     for x, y, (first, view_1), (second, view_2) in _pairs(state):
-        sources = view_1.equation.source, view_2.equation.source
+        parents = view_1.equation, view_2.equation
         for element in _differences(state, first, second):
             if _degree(state, y, (element,), ()) == 1 and len(element) <= _LONGEST:
-                source = Source(sources[0].i, sources[0].j, (), False, sources[0].base, sources)
-                added |= state.pool.add(element, source) is not None
+                source = replace(parents[0].source, entries=(), inverted=False)
+                added |= state.pool.add(element, source, (), parents) is not None
         if state.vanishes(state.ring.reduced(first[0] * second[1] - second[0] * first[1])):
             continue
         scales = _scales(state, first, second)
@@ -66,7 +66,9 @@ def eliminate(state: State) -> tuple[Step, ...]:
     return step, other
 
 
-def _degree(state: State, y: int, elements: tuple[Element, ...], scales: tuple[Element, ...]) -> int:
+def _degree(
+    state: State, y: int, elements: tuple[Element, ...], scales: tuple[Element, ...]
+) -> int:
     """Return the degree in cosine and sine of y of what elimination leaves, 0 for nothing."""
     degrees = []
     for point in state.points:

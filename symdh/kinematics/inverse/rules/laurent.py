@@ -62,9 +62,7 @@ def added(a: Mapping[int, Any], b: Mapping[int, Any], factor: Any = 1) -> Lauren
     return total
 
 
-def eliminated(
-    coefficients: tuple[Laurent, ...], scales: tuple[Any, ...]
-) -> Laurent:
+def eliminated(coefficients: tuple[Laurent, ...], scales: tuple[Any, ...]) -> Laurent:
     """Return what is left of two equations ``A s + B c + C = 0`` in another angle.
 
     Parameters

@@ -56,9 +56,14 @@ def _with_alternatives(
 
 def _surcharge(state: State, step: Step) -> float:
     """Prefer pairs that never degenerate, entries of one matrix equation, few moved joints."""
-    first, second = (used.source for used in step.equations)
+    first, second = (used.equation.source for used in step.equations)
     alike = (first.i, first.j, first.inverted) == (second.i, second.j, second.inverted)
-    return first.effort + second.effort + (0.0 if alike else 1.5) + (0.0 if _is_safe(state, step) else 4.0)
+    return (
+        first.effort
+        + second.effort
+        + (0.0 if alike else 1.5)
+        + (0.0 if _is_safe(state, step) else 4.0)
+    )
 
 
 def _is_safe(state: State, step: Step) -> bool:

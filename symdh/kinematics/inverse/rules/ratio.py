@@ -7,9 +7,9 @@ Once the angle is known, ``f = K_1 c + K_2 s``, whose factor never vanishes.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 
-from symdh.kinematics.inverse.pool import Source
 from symdh.kinematics.inverse.ring import Element
 from symdh.kinematics.inverse.state import State, View
 
@@ -48,20 +48,20 @@ def _ratio(state: State, first: View, second: View) -> None:
             if factor_1.exquo(own_1) != factor_2.exquo(own_2):
                 continue
             element = ring.reduced(p_1 * own_1 * k_2 - p_2 * own_2 * k_1)
-            sources = first.equation.source, second.equation.source
-            source = Source(sources[0].i, sources[0].j, (), False, sources[0].base, sources)
-            state.pool.add(element, source)
+            parents = first.equation, second.equation
+            source = replace(first.equation.source, entries=(), inverted=False)
+            state.pool.add(element, source, (), parents)
             whole = p_1 * p_2 * factor_1.exquo(own_1) + p_2 * k_1 * own_1 + p_1 * k_2 * own_2
-            state.projections.append((x, whole, source))
+            state.projections.append((x, whole, source, parents))
 
 
 def add_projections(state: State) -> None:
     """Add ``f = K_1 c + K_2 s`` for every ratio whose angle has been found since."""
     for entry in list(state.projections):
-        x, element, source = entry
+        x, element, source, parents = entry
         if x in state.known:
             state.projections.remove(entry)
-            state.pool.add(state.ring.reduced(element), source)
+            state.pool.add(state.ring.reduced(element), source, (), parents)
 
 
 def _parted(state: State, element: Element) -> tuple[Element, Element, Element] | None:

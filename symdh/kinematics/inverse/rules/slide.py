@@ -35,7 +35,12 @@ def slide_candidates(state: State) -> Iterator[Candidate]:
             step = Step(x, Rule.SLIDE_SQUARE, (view.used,), (a, b, c), branches=2)
             yield Candidate(len(a) + len(b) + len(c) + BRANCH, step)
         elif b:
-            cost = view.equation.source.effort + 2 * len(b) + len(c) + (0 if _is_constant(state, b) else _MAY_VANISH)
+            cost = (
+                view.equation.source.effort
+                + 2 * len(b)
+                + len(c)
+                + (0 if _is_constant(state, b) else _MAY_VANISH)
+            )
             linear.setdefault(x, []).append((cost, (b, c), view))
     for x, equations in linear.items():
         equations.sort(key=lambda entry: entry[0])

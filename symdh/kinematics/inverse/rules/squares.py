@@ -17,7 +17,8 @@ _CHOICES = ((0, 1), (1, 2), (0, 2), (0, 1, 2))
 _LONGEST_SIDE = 30
 _MOST_OPEN = 2
 
-Found = tuple[int, float, Element, Source]
+Sides = tuple[tuple[Element, Element], ...]
+Found = tuple[int, int, Element, Source, Sides]
 
 
 def add_squares(state: State) -> bool:
@@ -26,7 +27,8 @@ def add_squares(state: State) -> bool:
     Matrix equations whose one side is known come first. Equations in one unknown are enough where
     there are any; else those in two are added.
     """
-    known, others = [], []
+    known: list[Split] = []
+    others: list[Split] = []
     for split in state.pool.splits:
         sides = frozenset().union(*(state.support(x) for x in split.left.position))
         (others if state.open(sides) else known).append(split)
@@ -39,7 +41,9 @@ def add_squares(state: State) -> bool:
     found.sort(key=lambda entry: entry[:2])
     fewest = found[0][0] if found else 0
     added = [
-        state.pool.add(element, source) for count, _, element, source in found if count == fewest
+        state.pool.add(element, source, sides)
+        for count, _, element, source, sides in found
+        if count == fewest
     ]
     return any(added)
 
@@ -73,7 +77,8 @@ def _of_split(state: State, split: Split) -> list[Found]:
         if after and len(after) < len(before) and len(after) <= _MOST_OPEN:
             entries = tuple((k, 3) for k in choice)
             source = Source(split.i, split.j, entries, split.inverted, split.base)
-            found.append((len(after), len(element) + source.moved, element, source))
+            compared = tuple(sides[k] for k in choice)
+            found.append((len(after), len(element) + source.moved, element, source, compared))
     return found
 
 
