@@ -27,9 +27,10 @@ import symdh
 from symdh.derivation.derive import derive
 from symdh.derivation.singularity import chapter
 from symdh.derivation.style import Style
-from symdh.errors import UnsupportedError
+from symdh.errors import LimitError, UnsupportedError
 from symdh.kinematics.frame import Frame
 from symdh.kinematics.singular import Factor, Kind, Singularities, determinant, singularities
+from symdh.kinematics.velocity import jacobian
 from symdh.render.terminal import render_chapters
 from symdh.table import parse_expression
 
@@ -285,6 +286,20 @@ def test_an_arm_over_the_limit_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
         _ = found.product
     text = render_chapters([chapter(Style(robot), found)])
     assert "over symdh's limit" in " ".join(text.split())
+
+
+def test_many_joints_are_refused_at_once(run_symdh: Runner, tmp_path: Path) -> None:
+    rows = "".join(f"  - [q{i}, 0, a{i}, 0]\n" for i in range(1, 31))
+    snake = symdh.loads(table_text(rows))
+    with pytest.raises(LimitError, match="at most 8"):
+        singularities(snake)
+    with pytest.raises(LimitError, match="limit of 20"):
+        jacobian(snake)
+    titles = [chapter.title for chapter in derive(snake).chapters]
+    assert not {"Velocity", "Singularities"} & set(titles)
+    (tmp_path / "snake.yaml").write_text(table_text(rows))
+    assert run_symdh("singular", "snake.yaml").returncode == 4
+    assert run_symdh("jacobian", "snake.yaml").returncode == 4
 
 
 def test_no_joint_no_singularity() -> None:

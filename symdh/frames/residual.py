@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import asin, cos, hypot, pi, sin, sqrt
-
-from sympy import Expr
 
 from symdh.frames.urdf_chain import origin_word
 from symdh.motion import Word, rotation, translation
@@ -22,6 +20,17 @@ _GOLDEN = (sqrt(5) - 1) / 2
 
 Matrix = list[list[float]]
 Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class _Step:
+    """A rotation about, or a slide along, a unit vector by ``constant + factor q[place]``."""
+
+    turns: bool
+    axis: Triple
+    constant: float
+    factor: float
+    place: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,9 +64,9 @@ def residual(chain: UrdfChain, robot: Robot, poses: int = POSES) -> Residual:
         The first of them is the home position.
     """
     types = [joint.type for joint in robot.joints if joint.variable is not None]
+    left, right = _steps_of_chain(chain), _steps_of_robot(robot)
     differences = [
-        _difference(_pose_of_chain(chain, q), _pose_of_robot(robot, q))
-        for q in _joint_values(types, poses)
+        _difference(_pose(left, q), _pose(right, q)) for q in _joint_values(types, poses)
     ]
     return Residual(
         max(position for position, _ in differences),
@@ -75,35 +84,50 @@ def _joint_values(types: Sequence[JointType], poses: int) -> Iterator[list[float
         ]
 
 
-def _pose_of_chain(chain: UrdfChain, q: Sequence[float]) -> Matrix:
-    values = iter(q)
-    pose = _identity()
+def _steps_of_chain(chain: UrdfChain) -> list[_Step]:
+    """Return the motions of a chain, each joint about or along its axis brought to length 1."""
+    steps = []
+    place = 0
     for joint in chain.joints:
-        for motion in origin_word(joint.written):
-            pose = _times(pose, _elementary(motion, float(motion.amount)))
+        steps += [_constant(motion) for motion in origin_word(joint.written)]
         if joint.type is not UrdfJointType.FIXED:
             x, y, z = (float(entry) for entry in joint.written.axis)
             size = hypot(x, y, z)
-            axis = (x / size, y / size, z / size)
-            slides = joint.type is UrdfJointType.PRISMATIC
-            moved = (_slide if slides else _turn)(axis, next(values))
-            pose = _times(pose, moved)
-    return pose
+            turns = joint.type is not UrdfJointType.PRISMATIC
+            steps.append(_Step(turns, (x / size, y / size, z / size), 0.0, 1.0, place))
+            place += 1
+    return steps
 
 
-def _pose_of_robot(robot: Robot, q: Sequence[float]) -> Matrix:
-    values: dict[Expr, float] = dict(zip(robot.variables, q, strict=True))
+def _steps_of_robot(robot: Robot) -> list[_Step]:
     word = robot.base
     for joint in robot.joints:
         word += _link_word(joint, robot.convention)
-    pose = _identity()
+    places = {variable: place for place, variable in enumerate(robot.variables)}
+    steps = []
     for motion in word + robot.tool:
-        amount = motion.amount.xreplace({symbol: 0 * symbol for symbol in values})
-        variable = sum(
-            float(motion.amount.coeff(symbol)) * values[symbol]
-            for symbol in sorted(motion.amount.free_symbols, key=str)
-        )
-        pose = _times(pose, _elementary(motion, float(amount) + variable))
+        variables = motion.amount.free_symbols
+        if not variables:
+            steps.append(_constant(motion))
+            continue
+        (variable,) = variables
+        factor = motion.amount.coeff(variable)
+        still = _constant(replace(motion, amount=motion.amount - factor * variable))
+        steps.append(replace(still, factor=float(factor), place=places[variable]))
+    return steps
+
+
+def _constant(motion: Motion) -> _Step:
+    axis = (float(motion.axis == 0), float(motion.axis == 1), float(motion.axis == 2))
+    return _Step(motion.kind is MotionKind.ROTATION, axis, float(motion.amount), 0.0, 0)
+
+
+def _pose(steps: Sequence[_Step], q: Sequence[float]) -> Matrix:
+    pose = _identity()
+    for step in steps:
+        amount = step.constant + step.factor * q[step.place]
+        if amount:
+            pose = _times(pose, (_turn if step.turns else _slide)(step.axis, amount))
     return pose
 
 
@@ -119,12 +143,6 @@ def _difference(left: Matrix, right: Matrix) -> tuple[float, float]:
     # |A - B| of two rotations is sqrt(8) sin(angle / 2) in the Frobenius norm.
     chord = hypot(*(left[row][k] - right[row][k] for row in range(3) for k in range(3)))
     return position, 2 * asin(min(chord / sqrt(8), 1.0))
-
-
-def _elementary(motion: Motion, amount: float) -> Matrix:
-    axis = (float(motion.axis == 0), float(motion.axis == 1), float(motion.axis == 2))
-    move = _turn if motion.kind is MotionKind.ROTATION else _slide
-    return move(axis, amount)
 
 
 def _slide(axis: Triple, amount: float) -> Matrix:

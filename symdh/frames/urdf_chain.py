@@ -6,7 +6,6 @@ the axes are located in the home position, all joints at zero, and frames are as
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from sympy import Expr, Float, ImmutableMatrix, Integer, Matrix, Rational, Symbol, expand, eye, pi
@@ -25,7 +24,6 @@ from symdh.robot import (
     JointType,
     LengthUnit,
     Motion,
-    MotionKind,
     Robot,
     Units,
 )
@@ -169,19 +167,19 @@ def _home_poses(chain: UrdfChain) -> list[ImmutableMatrix]:
     rational entries that is nearer to the true one than a double could be, and still a rotation.
     """
     poses = []
-    word: Word = ()
+    pose, exact = ImmutableMatrix(eye(4)), True
     for joint in chain.joints:
-        word += tuple(motion for motion in origin_word(joint.meant) if not motion.amount.is_zero)
-        if all(_is_simple(angle) for motion in word for angle in _angle(motion)):
-            poses.append(transform(word).applyfunc(expand))
+        word = origin_word(joint.meant)
+        exact = exact and all(map(_is_simple, joint.meant.rpy))
+        if exact:
+            pose = (pose * transform(word)).applyfunc(expand)
+            poses.append(pose)
         else:
-            poses.append(_rational_pose(word))
+            # Carried on with 50 digits; only what is handed out is made a rotation.
+            for motion in word:
+                pose = (pose * elementary(motion)).evalf(_DIGITS)
+            poses.append(_rational_pose(pose))
     return poses
-
-
-def _angle(motion: Motion) -> Iterator[Expr]:
-    if motion.kind is MotionKind.ROTATION:
-        yield motion.amount
 
 
 def _is_simple(angle: Expr) -> bool:
@@ -189,10 +187,7 @@ def _is_simple(angle: Expr) -> bool:
     return bool(part.is_Rational) and _STEPS_OF_PI % int(part.q) == 0
 
 
-def _rational_pose(word: Word) -> ImmutableMatrix:
-    pose = Matrix(eye(4))
-    for motion in word:
-        pose = pose * elementary(motion).evalf(_DIGITS)
+def _rational_pose(pose: ImmutableMatrix) -> ImmutableMatrix:
     exact = Matrix(eye(4))
     exact[:3, :3] = _rotation_of(_quaternion(pose))
     for row in range(3):
@@ -200,7 +195,7 @@ def _rational_pose(word: Word) -> ImmutableMatrix:
     return ImmutableMatrix(exact)
 
 
-def _quaternion(pose: Matrix) -> list[Rational]:
+def _quaternion(pose: ImmutableMatrix) -> list[Rational]:
     """Return the quaternion of a rotation, not normalised, on a fine grid.
 
     Shepperd (1978): the largest of the four components is taken from its root, the others by

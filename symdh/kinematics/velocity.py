@@ -21,6 +21,10 @@ from symdh.motion.matrices import Vector, orientation, position
 from symdh.motion.size import closed_form_size
 from symdh.robot import Axis, Convention, Joint, JointType, Robot
 
+#: Joints past which no Jacobian is written out: its columns are as many as its longest sum has
+#: terms, and nobody reads a matrix of thousands of them.
+JOINT_LIMIT = 20
+
 ORIGIN: Vector = (Integer(0), Integer(0), Integer(0))
 
 
@@ -119,7 +123,8 @@ def jacobian(
     UnsupportedError
         When the robot has no such frame.
     LimitError
-        When the closed form would pass `CLOSED_FORM_LIMIT`.
+        When the closed form would pass `CLOSED_FORM_LIMIT`, or the joints are more than
+        `JOINT_LIMIT`.
 
     Notes
     -----
@@ -130,12 +135,19 @@ def jacobian(
     seen_from = first_frame(robot) if in_ is None else checked(robot, in_)
     point = ORIGIN if at is None else (at[0], at[1], at[2])
     moving = [(i, j) for i, j in enumerate(robot.joints, start=1) if j.variable is not None]
+    if len(moving) > JOINT_LIMIT:
+        raise LimitError(
+            f"{robot.name} has {len(moving)} moving joints, over the limit of {JOINT_LIMIT} for a "
+            "Jacobian that is written out; generated code (code) has no such limit"
+        )
     columns = tuple(_column(robot, i, joint, end, point, seen_from) for i, joint in moving)
     return GeometricJacobian(robot, end, point, seen_from, columns)
 
 
 def has_closed_jacobian(robot: Robot, of: Frame, in_: Frame) -> bool:
     """Say whether the Jacobian is small enough to be written out."""
+    if len(robot.variables) > JOINT_LIMIT:
+        return False
     words = (
         rotations(chain_word(robot, in_, axis_frame(robot, i)))
         + chain_word(robot, axis_frame(robot, i), of)

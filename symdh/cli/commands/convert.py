@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 _CONVENTIONS = ("standard", "modified")
 
+#: Joints from which on it takes seconds.
+_LONG = 15
+
 
 @click.command(
     epilog=options.examples(
@@ -48,7 +51,7 @@ _CONVENTIONS = ("standard", "modified")
     show_default=True,
     metavar="NUMBER",
     help="What is nearer than this to a multiple of 15 deg, to parallel or to meeting counts as "
-    "such in a URDF file, in radians and metres by metre; 0 takes every decimal at its word.",
+    "such in a URDF file, in radians and metres by metre; 0 takes every angle at its word.",
 )
 @options.file_option("standard output")
 @options.force_option
@@ -115,6 +118,8 @@ def _robot_of_urdf(
     chain = read_urdf_chain(source, ends, near)
     console.show_diagnostics(chain.warnings)
     convention = Convention(wanted) if wanted in _CONVENTIONS else Convention.STANDARD
+    if len(chain.joints) > _LONG:
+        console.note(f"assigning frames to {console.plural(len(chain.joints), 'joint')} ...")
     found = table_of_chain(chain, convention, near)
     for line in _taken(chain, found):
         console.note(f"note: {line}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from enum import Enum
 
 from symdh.kinematics.inverse.ring import U_NAMES, Element, InverseRing, Pose
 
@@ -51,6 +52,14 @@ class Source:
         return len(self.entries) > 1
 
 
+class Combination(Enum):
+    """How one equation was made of two."""
+
+    RATIO = "their common factor drops out"
+    PROJECTION = "they are multiplied by cosine and sine and added"
+    DIFFERENCE = "an angle that stands in both in the same way drops out"
+
+
 @dataclass(frozen=True, slots=True)
 class Equation:
     """``element = 0``, as it was found.
@@ -64,12 +73,15 @@ class Equation:
         The entries that were compared; each pair was squared before adding where there are more.
     parents : tuple of Equation
         Two equations that this one was combined from.
+    combination : Combination or None
+        How they were combined.
     """
 
     element: Element
     source: Source
     sides: tuple[tuple[Element, Element], ...] = ()
     parents: tuple[Equation, ...] = ()
+    combination: Combination | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,6 +145,7 @@ class Pool:
         source: Source,
         sides: tuple[tuple[Element, Element], ...] = (),
         parents: tuple[Equation, ...] = (),
+        combination: Combination | None = None,
     ) -> Equation | None:
         """Add an equation unless it is there, empty, or uses what the task does not give."""
         if not element:
@@ -143,7 +156,7 @@ class Pool:
         if key in self._seen:
             return None
         self._seen.add(key)
-        equation = Equation(element, source, sides, parents)
+        equation = Equation(element, source, sides, parents, combination)
         self.equations.append(equation)
         return equation
 

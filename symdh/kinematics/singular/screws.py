@@ -56,7 +56,9 @@ def sparsest(ring: TrigRing, robot: Robot, of: Frame, at: Sequence[Expr] | None)
         point: [lever(ring, robot, i, of, point if at is None else at) for i in joints]
         for point in points
     }
-    # Short levers make few terms in any frame, so only the best points are tried in all frames.
+    # In a long arm only frames in the middle can be sparse, and the others take long to work out.
+    frames = range(last + 1) if len(joints) <= 6 else range(last // 2 - 1, last // 2 + 2)
+    # Short levers make few terms in any frame, so only the best points are tried in all of them.
     promising = sorted(points, key=lambda point: _cost([arm[:2] for arm in levers[point]]))[:2]
     matrices = (
         ScrewMatrix(
@@ -68,7 +70,7 @@ def sparsest(ring: TrigRing, robot: Robot, of: Frame, at: Sequence[Expr] | None)
             point,
         )
         for point in promising
-        for frame in range(last + 1)
+        for frame in frames
     )
     return min(matrices, key=lambda matrix: _cost(matrix.columns))
 

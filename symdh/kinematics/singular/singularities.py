@@ -26,6 +26,9 @@ from symdh.robot import Robot
 #: Joints past which an arm is not looked at: its minors would be far too many.
 MAX_JOINTS = 8
 
+#: Terms in all entries of a Jacobian past which its determinant is not worked out.
+MAX_ENTRIES = 400
+
 #: Minors past which a Jacobian that is not square is not taken apart.
 MAX_MINORS = 60
 
@@ -200,6 +203,8 @@ class _Search:
 
     def factored(self, base: Singularities, matrix: ScrewMatrix) -> Singularities:
         """Return the result with its factors."""
+        if sum(len(entry) for column in matrix.columns for entry in column) > MAX_ENTRIES:
+            raise TooLargeError
         minors = self._minors(base, matrix)
         if base.is_square:
             (minor,) = minors

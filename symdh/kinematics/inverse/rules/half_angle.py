@@ -15,6 +15,7 @@ from itertools import combinations
 from typing import Any
 
 from symdh.kinematics.inverse.point import Point
+from symdh.kinematics.inverse.pool import Combination
 from symdh.kinematics.inverse.ring import Element
 from symdh.kinematics.inverse.rules.laurent import Laurent, eliminated, laurent
 from symdh.kinematics.inverse.solution import Rule, Step
@@ -41,7 +42,8 @@ def eliminate(state: State) -> tuple[Step, ...]:
         for element in _differences(state, first, second):
             if _degree(state, y, (element,), ()) == 1 and len(element) <= _LONGEST:
                 source = replace(parents[0].source, entries=(), inverted=False)
-                added |= state.pool.add(element, source, (), parents) is not None
+                made = Combination.DIFFERENCE
+                added |= state.pool.add(element, source, (), parents, made) is not None
         if state.vanishes(state.ring.reduced(first[0] * second[1] - second[0] * first[1])):
             continue
         scales = _scales(state, first, second)

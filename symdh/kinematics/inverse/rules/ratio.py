@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import combinations
 
+from symdh.kinematics.inverse.pool import Combination
 from symdh.kinematics.inverse.ring import Element
 from symdh.kinematics.inverse.state import State, View
 
@@ -50,7 +51,7 @@ def _ratio(state: State, first: View, second: View) -> None:
             element = ring.reduced(p_1 * own_1 * k_2 - p_2 * own_2 * k_1)
             parents = first.equation, second.equation
             source = replace(first.equation.source, entries=(), inverted=False)
-            state.pool.add(element, source, (), parents)
+            state.pool.add(element, source, (), parents, Combination.RATIO)
             whole = p_1 * p_2 * factor_1.exquo(own_1) + p_2 * k_1 * own_1 + p_1 * k_2 * own_2
             state.projections.append((x, whole, source, parents))
 
@@ -61,7 +62,7 @@ def add_projections(state: State) -> None:
         x, element, source, parents = entry
         if x in state.known:
             state.projections.remove(entry)
-            state.pool.add(state.ring.reduced(element), source, (), parents)
+            state.pool.add(state.ring.reduced(element), source, (), parents, Combination.PROJECTION)
 
 
 def _parted(state: State, element: Element) -> tuple[Element, Element, Element] | None:
