@@ -60,6 +60,7 @@ def test_the_wheel_works_in_a_fresh_environment(wheel: Path, tmp_path: Path) -> 
     run(environment / "bin" / "symdh", "derive", "arm.yaml")
     assert {path.name for path in (work / "arm").iterdir()} == {
         "arm.tex",
+        "arm.html",
         "arm.py",
         "arm.h",
         "arm.c",

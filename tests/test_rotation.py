@@ -551,7 +551,8 @@ def test_the_command_answers_the_quiz(empty: Path, capsys: Capture) -> None:
 
 def test_the_example_says_the_same_as_the_command_line(empty: Path, capsys: Capture) -> None:
     given = []
-    for arguments in ([QUIZ, "--point", "1,2,3"], [str(ROOT / "examples" / "rotations" / "three_turns.yaml")]):
+    example = ROOT / "examples" / "rotations" / "three_turns.yaml"
+    for arguments in ([QUIZ, "--point", "1,2,3"], [str(example)]):
         assert run(["rotate", *arguments, "--format", "json"]) == 0
         given.append(json.loads(capsys.readouterr().out))
     assert given[0] == given[1]

@@ -13,6 +13,7 @@ from symdh.kinematics.inverse.solution import ClosedForm
 from symdh.notation.names import split_name
 from symdh.notation.nodes import (
     Equation,
+    Fraction,
     Generic,
     Juxtaposed,
     Name,
@@ -46,7 +47,7 @@ class Writer:
         robot = form.arm.robot
         self._used = {s.name for s in (*robot.parameters, *robot.variables)}
         self._named: dict[Element, Symbol] = {}
-        self._count = 0
+        self._counts: dict[str, int] = {}
 
     def expression(self, expression: Expr) -> Node:
         """Write an expression."""
@@ -101,10 +102,20 @@ class Writer:
     def letter(self, stem: str) -> Symbol:
         """Return a letter with a number, such as k_3, that nothing else has."""
         while True:
-            self._count += 1
-            name = f"{stem}_{self._count}"
-            if name not in self._used and f"{stem}{self._count}" not in self._used:
-                return Symbol(name, real=True)
+            count = self._counts[stem] = self._counts.get(stem, 0) + 1
+            if not {f"{stem}_{count}", f"{stem}{count}"} & self._used:
+                return Symbol(f"{stem}_{count}", real=True)
+
+    def quotient(self, top: Expr, bottom: Expr) -> Node:
+        """Write a quotient as one fraction whose denominator is positive in its first term."""
+        over, under = self.expression(top), self.expression(bottom)
+        if isinstance(under, Negative):
+            over, under = self.expression(-top), under.node
+        if isinstance(under, Number) and under.value == 1:
+            return over
+        if isinstance(over, Negative):
+            return Negative(Fraction(over.node, under))
+        return Fraction(over, under)
 
     def goal_matrix(self, source: Source) -> Node:
         """Return the name of the matrix that an equation starts from: G, or that of a part."""
@@ -120,11 +131,8 @@ class Writer:
         return Generic((stem, second)[parts.index(base)].upper())
 
     def links(self, i: int, j: int) -> tuple[Node, ...]:
-        """Return the names of A_{i+1} .. A_j; links without a word of their own are left out."""
-        rows = self.form.arm.rows
-        return tuple(
-            self.style.link_name(k) for k in range(i + 1, j + 1) if rows[k - 1] or j - i == 1
-        )
+        """Return the names of A_{i+1} .. A_j."""
+        return tuple(self.style.link_name(k) for k in range(i + 1, j + 1))
 
     def matrix_equation(self, source: Source) -> Node:
         """Return the matrix equation that an equation was read off."""

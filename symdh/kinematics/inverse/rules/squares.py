@@ -52,10 +52,11 @@ def _of_split(state: State, split: Split) -> list[Found]:
     ring = state.ring
     if max(map(len, (*split.left.position, *split.right.position))) > _LONGEST_SIDE:
         return []
-    sides = [
-        _sides(state, left, right)
+    compared = [
+        _known_moved(state, left, right)
         for left, right in zip(split.left.position, split.right.position, strict=True)
     ]
+    sides = [(left, base_angles(ring, right, state.known)) for left, right in compared]
     opened = [
         state.open(state.support(left) | state.support(right)) if left or right else frozenset()
         for left, right in sides
@@ -77,13 +78,13 @@ def _of_split(state: State, split: Split) -> list[Found]:
         if after and len(after) < len(before) and len(after) <= _MOST_OPEN:
             entries = tuple((k, 3) for k in choice)
             source = Source(split.i, split.j, entries, split.inverted, split.base)
-            compared = tuple(sides[k] for k in choice)
-            found.append((len(after), len(element) + source.moved, element, source, compared))
+            shown = tuple(compared[k] for k in choice)
+            found.append((len(after), len(element) + source.moved, element, source, shown))
     return found
 
 
-def _sides(state: State, left: Element, right: Element) -> tuple[Element, Element]:
-    """Move what is known from the right side to the left; write the rest by the joints' angles."""
+def _known_moved(state: State, left: Element, right: Element) -> tuple[Element, Element]:
+    """Move what is known from the right side to the left."""
     ring = state.ring
     known: dict[tuple[int, ...], object] = {}
     rest: dict[tuple[int, ...], object] = {}
@@ -91,4 +92,4 @@ def _sides(state: State, left: Element, right: Element) -> tuple[Element, Elemen
         one = ring.ring.from_dict({powers: coefficient})
         (rest if state.open(state.support(one)) else known)[powers] = coefficient
     make = ring.ring.from_dict
-    return left - make(known), base_angles(ring, make(rest), state.known)
+    return left - make(known), make(rest)
