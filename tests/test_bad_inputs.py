@@ -139,7 +139,7 @@ def test_an_odd_table_is_derived(case: dict[str, Any], tmp_path: Path, run_symdh
     if case["expected"]["outcome"] == "warn":
         assert "arm.yaml:8:12: warning: " in ran.stderr
     name = yaml.load(text, Loader=yaml.BaseLoader)["name"]
-    written = {f"{name}.{ending}" for ending in ("tex", "py", "h", "c")}
+    written = {f"{name}.{ending}" for ending in ("tex", "html", "py", "h", "c")}
     assert set(contents(tmp_path / "out")) == written
     plain = plainly_named(case, text.decode())
     assert_code_agrees(tmp_path / "out", name, read_arm(plain))

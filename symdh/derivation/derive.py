@@ -27,6 +27,12 @@ _CONVENTION = {
 }
 
 
+#: Rows past which a document gives the recursion in place of one product after the other, and past
+#: which it leaves velocity out: by then the steps fill tens of pages.
+PRODUCT_LIMIT = 12
+VELOCITY_LIMIT = 10
+
+
 def derive(
     robot: Robot, order: Order | str = Order.RIGHT, naming: Naming | str = Naming.AUTO
 ) -> Document:
@@ -53,11 +59,14 @@ def derive(
         general.chapter(style),
         links.chapter(style, forward),
     ]
-    if forward.pose is None:
-        chapters.append(recursion.chapter(style, forward.start, forward.end))
+    if forward.pose is not None and robot.n <= PRODUCT_LIMIT:
+        chapters.append(products.chapter(style, forward))
     else:
-        chapters += [products.chapter(style, forward), result.chapter(style, forward)]
-    if robot.variables and has_closed_jacobian(robot, forward.end, forward.start):
+        chapters.append(recursion.chapter(style, forward.start, forward.end))
+    if forward.pose is not None:
+        chapters.append(result.chapter(style, forward))
+    few = 0 < len(robot.variables) <= VELOCITY_LIMIT
+    if few and has_closed_jacobian(robot, forward.end, forward.start):
         known = [style.notation.matrix(m) for m in (*forward.links, forward.pose) if m is not None]
         motion = velocity.readable_jacobian(style, forward.start, forward.end)
         chapters.append(velocity.chapter(style, motion, known))

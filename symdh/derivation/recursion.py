@@ -22,6 +22,7 @@ from symdh.notation.nodes import (
     Sum,
     Tuple,
 )
+from symdh.robot import Robot
 
 
 def chapter(style: Style, start: Frame, end: Frame) -> Chapter:
@@ -29,14 +30,11 @@ def chapter(style: Style, start: Frame, end: Frame) -> Chapter:
     robot = style.robot
     if place(robot, start) > place(robot, end):
         return _backwards(style, start, end)
-    size = closed_form_size(chain_word(robot, start, end))
-    about = f"{size:,}" if size < 10**7 else f"more than 10^{len(str(size)) - 1}"
     blocks: list[Block] = [
         Paragraph(
             (
-                f"Written out, the pose would have {about} operations, over the limit of "
-                f"{CLOSED_FORM_LIMIT:,}. It is given link by link instead, from the hand to the "
-                "base. A direction fixed in the last frame has the components ",
+                f"{_why(robot, start, end)} The pose is given link by link instead, from the hand "
+                "to the base. A direction fixed in the last frame has the components ",
                 Generic("u"),
                 " and its origin the components ",
                 Generic("p"),
@@ -69,6 +67,17 @@ def chapter(style: Style, start: Frame, end: Frame) -> Chapter:
         )
     )
     return Chapter("The pose by recursion", tuple(blocks))
+
+
+def _why(robot: Robot, start: Frame, end: Frame) -> str:
+    """Return why the products are not written out."""
+    size = closed_form_size(chain_word(robot, start, end))
+    if size <= CLOSED_FORM_LIMIT:
+        return f"With {robot.n} rows the products one at a time would fill pages."
+    about = f"{size:,}" if size < 10**7 else f"more than 10^{len(str(size)) - 1}"
+    return (
+        f"Written out, it would have {about} operations, over the limit of {CLOSED_FORM_LIMIT:,}."
+    )
 
 
 def _backwards(style: Style, start: Frame, end: Frame) -> Chapter:
