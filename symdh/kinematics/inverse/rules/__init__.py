@@ -1,1 +1,0 @@
-"""The rules that solve for an unknown, one a file."""
