@@ -32,6 +32,6 @@ def test_output_depends_on_the_table_alone(example: str, tmp_path: Path, run_sym
             assert ran.returncode == 0, ran.stderr
             printed.append(ran.stdout)
         files = {path.name: path.read_bytes() for path in folder.iterdir()}
-        assert len(files) == 4
+        assert len(files) == 5
         given.append((printed, files))
     assert all(other == given[0] for other in given[1:])
