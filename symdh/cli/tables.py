@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from symdh.cli import console
+from symdh.cli import console, patience
 
 if TYPE_CHECKING:
+    from symdh.derivation.blocks import Document
     from symdh.kinematics.frame import Frame
     from symdh.robot import Robot
 
@@ -23,6 +24,14 @@ def read_robot(path: str) -> Robot:
     loaded = load_table(path)
     console.show_diagnostics(loaded.warnings)
     return loaded.robot
+
+
+def derived(robot: Robot, order: str, notation: str) -> Document:
+    """Derive a robot's document; a person at the terminal is told when it takes long."""
+    from symdh.derivation.derive import derive
+
+    with patience.telling(f"deriving {robot.name}"):
+        return derive(robot, order=order, naming=notation)
 
 
 def read_preamble(path: str | None) -> str:

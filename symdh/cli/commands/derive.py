@@ -36,13 +36,12 @@ def derive(
     TABLE is a file, or - for standard input.
     """
     from symdh.codegen.names import file_stem
-    from symdh.derivation.derive import derive as derive_document
     from symdh.kinematics.frame import first_frame, last_frame
     from symdh.render.latex import render_latex
     from symdh.render.terminal import render_result
 
     robot = tables.read_robot(table)
-    document = derive_document(robot, order=order, naming=notation)
+    document = tables.derived(robot, order, notation)
     if folder == "-":
         console.print_result(render_latex(document, paper=paper))
         return

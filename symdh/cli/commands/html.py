@@ -24,9 +24,8 @@ def html(table: str, output: str | None, order: str, notation: str, force: bool)
     TABLE is a file, or - for standard input.
     """
     from symdh.codegen.names import file_stem
-    from symdh.derivation.derive import derive
     from symdh.render.page.page import render_page
 
     robot = tables.read_robot(table)
-    page = render_page(derive(robot, order=order, naming=notation), robot)
+    page = render_page(tables.derived(robot, order, notation), robot)
     files.save(output or f"{file_stem(robot.name)}.html", page.encode(), force=force)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from symdh.cli import arguments, console, options, tables
+from symdh.cli import arguments, console, options, patience, tables
 
 if TYPE_CHECKING:
     from symdh.derivation.blocks import Chapter
@@ -56,7 +56,9 @@ def jacobian(table: str, of: str | None, at: str | None, seen_from: str | None, 
 
     robot = tables.read_robot(table)
     in_, frame = tables.frames_between(robot, seen_from, of)
-    found = velocity.jacobian(robot, frame, arguments.point(robot, at), in_)
+    point = arguments.point(robot, at)
+    with patience.telling(f"differentiating {robot.name}"):
+        found = velocity.jacobian(robot, frame, point, in_)
     if form == "json":
         from symdh.render.velocity_json import jacobian_json
 
@@ -88,7 +90,9 @@ def singular(table: str, of: str | None, at: str | None, form: str) -> None:
 
     robot = tables.read_robot(table)
     _, frame = tables.frames_between(robot, None, of)
-    found = singularities(robot, frame, arguments.point(robot, at))
+    point = arguments.point(robot, at)
+    with patience.telling(f"looking for the singularities of {robot.name}"):
+        found = singularities(robot, frame, point)
     if form == "json":
         from symdh.render.velocity_json import singularities_json
 

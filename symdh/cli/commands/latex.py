@@ -32,10 +32,9 @@ def latex(
     force: bool,
 ) -> None:
     """Write the derivation, step by step, as LaTeX."""
-    from symdh.derivation.derive import derive
     from symdh.render.latex import render_latex
 
-    document = derive(tables.read_robot(table), order=order, naming=notation)
+    document = tables.derived(tables.read_robot(table), order, notation)
     text = render_latex(
         document, fragment=fragment, paper=paper, preamble=tables.read_preamble(preamble)
     )

@@ -44,13 +44,12 @@ def pdf(
 ) -> None:
     """Typeset the derivation as a PDF."""
     from symdh.codegen.names import file_stem
-    from symdh.derivation.derive import derive
     from symdh.render.latex import render_latex
     from symdh.render.pdf import compile_pdf
 
     robot = tables.read_robot(table)
     own = tables.read_preamble(preamble)
-    document = derive(robot, order=order, naming=notation)
+    document = tables.derived(robot, order, notation)
     tex = render_latex(document, paper=paper, preamble=own)
     stem = file_stem(robot.name)
     output = output or f"{stem}.pdf"
