@@ -62,7 +62,7 @@ def names(folder: Path = Path()) -> set[str]:
 
 def test_the_commands_are_those_of_the_design() -> None:
     designed = {"derive", "show", "eval", "latex", "pdf", "code", "check", "init", "completion"}
-    later = {"html", "rotate", "task", "jacobian", "singular", "frames", "convert"}
+    later = {"html", "rotate", "task", "jacobian", "singular", "frames", "convert", "ik"}
     assert set(program.commands) == designed | later
 
 

@@ -16,6 +16,7 @@ from symdh.cli.commands.derive import derive
 from symdh.cli.commands.evaluate import evaluate
 from symdh.cli.commands.frames import frames
 from symdh.cli.commands.html import html
+from symdh.cli.commands.ik import ik
 from symdh.cli.commands.init import init
 from symdh.cli.commands.jacobian import jacobian, singular
 from symdh.cli.commands.latex import latex
@@ -34,6 +35,7 @@ COMMANDS = (
     evaluate,
     jacobian,
     singular,
+    ik,
     task,
     rotate,
     frames,

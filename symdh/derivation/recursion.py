@@ -33,7 +33,7 @@ def chapter(style: Style, start: Frame, end: Frame) -> Chapter:
     blocks: list[Block] = [
         Paragraph(
             (
-                f"{_why(robot, start, end)} The pose is given link by link instead, from the hand "
+                f"{_why(robot, start, end)} It is given link by link instead, from the hand "
                 "to the base. A direction fixed in the last frame has the components ",
                 Generic("u"),
                 " and its origin the components ",
@@ -73,11 +73,9 @@ def _why(robot: Robot, start: Frame, end: Frame) -> str:
     """Return why the products are not written out."""
     size = closed_form_size(chain_word(robot, start, end))
     if size <= CLOSED_FORM_LIMIT:
-        return f"With {robot.n} rows the products one at a time would fill pages."
+        return f"With {robot.n} rows, the pose worked out one product at a time would fill pages."
     about = f"{size:,}" if size < 10**7 else f"more than 10^{len(str(size)) - 1}"
-    return (
-        f"Written out, it would have {about} operations, over the limit of {CLOSED_FORM_LIMIT:,}."
-    )
+    return f"Written out, the pose would have {about} operations, over the limit of {CLOSED_FORM_LIMIT:,}."
 
 
 def _backwards(style: Style, start: Frame, end: Frame) -> Chapter:

@@ -1,0 +1,245 @@
+"""``symdh ik``: inverse kinematics, derived, and the solutions for one pose."""
+
+from __future__ import annotations
+
+import re
+from contextlib import contextmanager
+from math import radians
+from threading import Timer
+from typing import TYPE_CHECKING
+
+import click
+
+from symdh.cli import arguments, console, files, options, tables
+from symdh.errors import DerivationError, UnsupportedError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from sympy import Expr, Symbol
+
+    from symdh.derivation.inverse import Solved
+    from symdh.kinematics.inverse.inverse import InverseKinematics
+    from symdh.robot import Robot
+
+#: Seconds after which a search says that it is at work.
+_PATIENCE = 2.0
+
+
+@click.command(
+    epilog=options.examples(
+        "symdh ik puma560.yaml",
+        'symdh ik planar_2r.yaml --pose "0.6 0.3"',
+        'symdh ik ur5.yaml --set theta1="30 deg" --set theta2=10 ... --format json',
+        "symdh ik iiwa.yaml --lock theta3 --check 1000",
+    )
+)
+@options.table_argument
+@click.option(
+    "--task",
+    "wanted",
+    metavar="TASK",
+    help="What is given: pose, orientation, or coordinates such as 'x y' and 'x y phi'. "
+    "Default: what fits the arm.",
+)
+@click.option(
+    "--lock",
+    "locks",
+    metavar="NAME",
+    multiple=True,
+    help="Hold a joint, for arms with more joints than the task needs. Repeatable.",
+)
+@click.option(
+    "--pose",
+    metavar="NUMBERS",
+    help="Solve for a pose: 12 or 16 numbers by rows, or the coordinates of the task.",
+)
+@click.option(
+    "--set",
+    "settings",
+    metavar="NAME=VALUE",
+    multiple=True,
+    help="Value of a symbol. With all joints set and no --pose, solves for the pose they give. "
+    "Repeatable.",
+)
+@click.option(
+    "--near",
+    "seeds",
+    metavar="NAME=VALUE",
+    multiple=True,
+    help="Joint value that solutions should be near to; free joints take it. Repeatable.",
+)
+@click.option(
+    "--check",
+    "trials",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Solve for the poses of N random joint values and say whether they are found again.",
+)
+@click.option(
+    "--time-limit",
+    type=click.FloatRange(min=0, min_open=True),
+    default=20.0,
+    show_default=True,
+    metavar="SECONDS",
+    help="Stop searching for a closed form after this CPU time.",
+)
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["text", "latex", "json"]),
+    default="text",
+    show_default=True,
+    help="Unicode to read, a LaTeX document, or JSON for a program.",
+)
+@options.file_option("standard output")
+@options.force_option
+def ik(
+    table: str,
+    wanted: str | None,
+    locks: tuple[str, ...],
+    pose: str | None,
+    settings: tuple[str, ...],
+    seeds: tuple[str, ...],
+    trials: int | None,
+    time_limit: float,
+    form: str,
+    output: str | None,
+    force: bool,
+) -> None:
+    """Derive the inverse kinematics, or solve it for one pose.
+
+    Says for each unknown which matrices are moved, which entries compared, what follows, how many
+    values there are and where it fails. Where there is no closed form, says what was tried and
+    solves by search.
+
+    With --pose, or with --set for all joints, prints all solutions of that pose.
+    """
+    from symdh.kinematics.inverse.inverse import inverse_kinematics
+
+    robot = tables.read_robot(table)
+    values = arguments.assignment(robot, settings)
+    locked = tuple(_joint(robot, name) for name in locks)
+    with _said_if_slow(f"searching for the inverse kinematics of {robot.name} ..."):
+        found = inverse_kinematics(robot, wanted, locked, time_limit)
+    if trials is not None:
+        console.print_result(_checked(found, trials, values))
+        return
+    solved = _solved(found, pose, values, arguments.assignment(robot, seeds))
+    files.save(output or "-", _text(found, solved, form).encode(), force=force)
+
+
+@contextmanager
+def _said_if_slow(text: str) -> Iterator[None]:
+    """Print a note when what is done takes longer than anybody waits without a word."""
+    timer = Timer(_PATIENCE, console.note, (text,))
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+
+
+def _joint(robot: Robot, name: str) -> Symbol:
+    from sympy import Symbol
+
+    from symdh.table.names import canonical_name
+
+    variable = Symbol(canonical_name(arguments.as_utf8(name).strip()), real=True)
+    if variable not in robot.variables:
+        known = ", ".join(each.name for each in robot.variables)
+        raise UnsupportedError(f"{name} is no joint variable of {robot.name}; these are: {known}")
+    return variable
+
+
+def _solved(
+    found: InverseKinematics,
+    pose: str | None,
+    values: Mapping[Symbol, Expr],
+    seeds: Mapping[Symbol, Expr],
+) -> Solved | None:
+    """Solve for the pose that was given, or that the joint values give; None without any."""
+    from symdh.derivation.inverse import Solved
+    from symdh.kinematics.frame import first_frame, last_frame
+    from symdh.kinematics.inverse.goal import goal_of
+    from symdh.kinematics.inverse.task import Kind
+    from symdh.kinematics.numeric import pose as pose_of
+    from symdh.robot import AngleUnit
+
+    robot = found.robot
+    if pose is not None:
+        numbers = _numbers(pose)
+        with_angle = found.task.kind is Kind.PLANAR and len(numbers) == len(found.task.axes) + 1
+        if with_angle and robot.units.angle is not AngleUnit.RADIAN:
+            numbers[-1] = radians(numbers[-1])
+        goal = goal_of(found.task, numbers)
+    elif set(robot.variables) <= set(values):
+        goal = pose_of(robot, first_frame(robot), last_frame(robot), values)
+    else:
+        return None
+    seed = None
+    if seeds:
+        known = {**robot.values, **values, **seeds}
+        seed = [float(known.get(variable, 0)) for variable in robot.variables]
+    return Solved(goal, found.solver(values).solve(goal, seed))
+
+
+def _numbers(text: str) -> list[float]:
+    words = [word for word in re.split(r"[\s,;\[\]()]+", text) if word]
+    try:
+        return [float(word) for word in words]
+    except ValueError as error:
+        raise UnsupportedError(f"--pose takes plain numbers: {error}") from None
+
+
+def _checked(found: InverseKinematics, trials: int, values: Mapping[Symbol, Expr]) -> str:
+    """Say what came of random poses.
+
+    Raises
+    ------
+    DerivationError
+        When a closed form has missed joint values that it should have found.
+    """
+    from symdh.kinematics.inverse.check import tried
+    from symdh.kinematics.inverse.inverse import Method
+
+    step = max(1, trials // 5)
+
+    def progress(done: int) -> None:
+        if done % step == 0 and done < trials:
+            console.note(f"{done} of {trials} poses")
+
+    result = tried(found, trials, values, progress)
+    counts = ", ".join(f"{n} at {times}" for n, times in sorted(result.counts.items()))
+    told = (
+        f"method: {found.method.value}\n"
+        f"random poses: {result.poses}; joint values found again at {result.found}\n"
+        f"solutions: {counts}\n"
+        f"largest error: {result.worst:.1e} (reach {result.reach:.4g})"
+    )
+    if result.found < trials and found.method is Method.CLOSED_FORM:
+        missed = "; ".join(", ".join(f"{x:.6f}" for x in q) for q in result.missed)
+        raise DerivationError(f"{told}\nnot found again (radians): {missed}")
+    return told
+
+
+def _text(found: InverseKinematics, solved: Solved | None, form: str) -> str:
+    if form == "json":
+        from symdh.render.inverse_json import inverse_json
+
+        goal = solved.goal if solved else None
+        return inverse_json(found, goal, solved.answers if solved else None) + "\n"
+    from symdh.derivation.inverse import inverse_document, numbers_chapter
+
+    if form == "latex":
+        from symdh.render.latex import render_latex
+
+        return render_latex(inverse_document(found, solved))
+    from symdh.render.terminal import render_chapters
+
+    if solved is None:
+        chapters = inverse_document(found).chapters
+    else:
+        chapters = (numbers_chapter(found, solved),)
+    return render_chapters(chapters, width=console.width()) + "\n"

@@ -1,0 +1,169 @@
+"""How the parts of an inverse kinematics derivation are called and written."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sympy import Expr, Integer, Symbol
+
+from symdh.derivation.style import Style
+from symdh.kinematics.inverse.pool import Source
+from symdh.kinematics.inverse.ring import Element
+from symdh.kinematics.inverse.solution import ClosedForm
+from symdh.notation.names import split_name
+from symdh.notation.nodes import (
+    Equation,
+    Fraction,
+    Generic,
+    Juxtaposed,
+    Name,
+    Negative,
+    Node,
+    Number,
+    Power,
+    Rounded,
+    Tuple,
+)
+from symdh.notation.writing import weight
+
+#: A coefficient that has more to read than this gets a name.
+_SHORT = 2
+
+
+class Writer:
+    """Writes the elements, unknowns and matrices of one solution.
+
+    Attributes
+    ----------
+    style : Style
+        Of the robot whose lengths have letters.
+    form : ClosedForm
+    """
+
+    def __init__(self, style: Style, form: ClosedForm) -> None:
+        self.style = style
+        self.form = form
+        self._ring = form.ring
+        robot = form.arm.robot
+        self._used = {s.name for s in (*robot.parameters, *robot.variables)}
+        self._named: dict[Element, Symbol] = {}
+        self._counts: dict[str, int] = {}
+
+    def expression(self, expression: Expr) -> Node:
+        """Write an expression."""
+        return self.style.notation.write(expression)
+
+    def element(self, element: Element) -> Node:
+        """Write an element."""
+        return self.expression(self._ring.expression(element))
+
+    def cosine(self, unknown: int) -> Expr:
+        """Return the cosine of an angle."""
+        return self._ring.letters[2 * unknown]
+
+    def sine(self, unknown: int) -> Expr:
+        """Return the sine of an angle."""
+        return self._ring.letters[2 * unknown + 1]
+
+    def unknown(self, unknown: int, stage: str = "") -> Node:
+        """Write an unknown: theta_1, or theta_{23} for a sum; `stage` tells solutions apart."""
+        expression = self._ring.unknown_expression(unknown)
+        if expression.is_Symbol:
+            letter, index = split_name(expression.name)
+            return Generic(letter, index, stage) if stage else Name(expression.name)
+        found = self.style.notation.shorthand.joint_sum(expression)
+        letters = {split_name(symbol.name)[0] for symbol in expression.free_symbols}
+        if found is None or len(letters) != 1:
+            return self.expression(expression)
+        return Generic(letters.pop(), self.style.notation.shorthand.label(found[0]), stage)
+
+    def is_sum(self, unknown: int) -> bool:
+        """Say whether an unknown is a sum of joint angles."""
+        return not self._ring.unknown_expression(unknown).is_Symbol
+
+    def short(self, element: Element, new: list[tuple[Symbol, Element]]) -> Expr:
+        """Return an element as it is where it is short, else a name for it.
+
+        A new name is appended to `new` with what it stands for.
+        """
+        expression = self._ring.expression(element)
+        node = self.expression(expression)
+        if weight(node) <= _SHORT:
+            return expression
+        for known, sign in ((element, 1), (-element, -1)):
+            if known in self._named:
+                return sign * self._named[known]
+        sign = -1 if isinstance(node, Negative) else 1
+        letter = self.letter("k")
+        self._named[sign * element] = letter
+        new.append((letter, sign * element))
+        return sign * letter
+
+    def letter(self, stem: str) -> Symbol:
+        """Return a letter with a number, such as k_3, that nothing else has."""
+        while True:
+            count = self._counts[stem] = self._counts.get(stem, 0) + 1
+            if not {f"{stem}_{count}", f"{stem}{count}"} & self._used:
+                return Symbol(f"{stem}_{count}", real=True)
+
+    def quotient(self, top: Expr, bottom: Expr) -> Node:
+        """Write a quotient as one fraction whose denominator is positive in its first term."""
+        over, under = self.expression(top), self.expression(bottom)
+        if isinstance(under, Negative):
+            over, under = self.expression(-top), under.node
+        if isinstance(under, Number) and under.value == 1:
+            return over
+        if isinstance(over, Negative):
+            return Negative(Fraction(over.node, under))
+        return Fraction(over, under)
+
+    def goal_matrix(self, source: Source) -> Node:
+        """Return the name of the matrix that an equation starts from: G, or that of a part."""
+        return self.part_name(source.base)
+
+    def part_name(self, base: tuple[int, int]) -> Node:
+        """Return G for the whole chain, E and F for the parts that were named."""
+        parts = [step.part for step in self.form.steps if step.part]
+        if base not in parts:
+            return Generic("G")
+        stem = str(self._ring.letters[self._ring.first_name]).partition("_")[0]
+        second = str(self._ring.letters[self._ring.first_name + 12]).partition("_")[0]
+        return Generic((stem, second)[parts.index(base)].upper())
+
+    def links(self, i: int, j: int) -> tuple[Node, ...]:
+        """Return the names of A_{i+1} .. A_j."""
+        return tuple(self.style.link_name(k) for k in range(i + 1, j + 1))
+
+    def matrix_equation(self, source: Source) -> Node:
+        """Return the matrix equation that an equation was read off."""
+        i_0, j_0 = source.base
+        if source.inverted:
+            before, after = self.links(source.j, j_0), self.links(i_0, source.i)
+            left = (*before, Power(self.goal_matrix(source), _MINUS), *after)
+            right = _inverses(self.links(source.i, source.j))
+        else:
+            before, after = self.links(i_0, source.i), self.links(source.j, j_0)
+            left = (*_inverses(before), self.goal_matrix(source), *_inverses(after))
+            right = self.links(source.i, source.j)
+        return Equation((_beside(left), _beside(right)))
+
+
+_MINUS = Integer(-1)
+
+
+def _inverses(names: Sequence[Node]) -> tuple[Node, ...]:
+    return tuple(Power(name, _MINUS) for name in reversed(names))
+
+
+def _beside(names: Sequence[Node]) -> Node:
+    return names[0] if len(names) == 1 else Juxtaposed(tuple(names))
+
+
+def place(entry: tuple[int, int]) -> Node:
+    """Return the place of an entry, counted from 1."""
+    return Tuple(tuple(Rounded(str(k + 1)) for k in entry))
+
+
+def is_zero(node: Node) -> bool:
+    """Say whether a node is the number zero."""
+    return isinstance(node, Number) and node.value == 0

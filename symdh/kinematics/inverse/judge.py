@@ -1,0 +1,175 @@
+"""The judge of every answer: forward kinematics, whatever a formula or a search has proposed."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import inf, pi, sqrt
+
+from sympy import Expr, Symbol
+
+from symdh.kinematics.inverse.numeric_chain import NumericChain
+from symdh.kinematics.inverse.refine import Goal, refined, task_error
+from symdh.kinematics.inverse.task import InverseTask
+from symdh.robot import JointType, Robot
+
+#: An answer may miss the goal by so much of the arm's reach.
+TOLERANCE = 1e-9
+#: Rounding of a formula; what misses by more is improved.
+_ROUNDING = 1e-13
+#: Two answers closer than this, in radians and parts of the reach, are one.
+_SAME = 1e-6
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One solution for a goal.
+
+    Attributes
+    ----------
+    q : tuple of float
+        The joint variables in chain order, locked ones included; angles in (-pi, pi].
+    branches : tuple of int
+        Which branch each branching step took; empty where no formula gave the answer.
+    free : tuple of Symbol
+        Variables that the goal leaves free; they have the seed's values.
+    error : float
+        By how much the pose misses the goal, as a length.
+    within_limits : bool
+        Whether all variables are within the limits of the table.
+    """
+
+    q: tuple[float, ...]
+    branches: tuple[int, ...]
+    free: tuple[Symbol, ...]
+    error: float
+    within_limits: bool
+
+
+class Judge:
+    """Says what is an answer, which answers are the same, and improves what is nearly one.
+
+    Parameters
+    ----------
+    robot : Robot
+    task : InverseTask
+    values : mapping of Symbol to Expr
+        Numbers for parameters; they win over the table's own.
+    held : mapping of Symbol to float
+        Locked joint variables.
+
+    Raises
+    ------
+    UnsupportedError
+        When a parameter has no value.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        task: InverseTask,
+        values: Mapping[Symbol, Expr],
+        held: Mapping[Symbol, float],
+    ) -> None:
+        self.robot = robot
+        self.task = task
+        numbers = {s.name: float(v) for s, v in values.items() if s in robot.parameters}
+        self.chain = NumericChain.of(robot, numbers)
+        self.held = {robot.variables.index(variable): x for variable, x in held.items()}
+        self.turning = [_turns(robot, variable) for variable in robot.variables]
+        self.free_places = [k for k in range(len(robot.variables)) if k not in self.held]
+        self._limits = _limits(robot, {**robot.values, **values})
+
+    def error(self, goal: Goal, q: Sequence[float]) -> float:
+        """Return by how much joint values miss a goal, as a length."""
+        return task_error(self.chain, self.task, goal, q)
+
+    def accept(
+        self,
+        answers: list[Answer],
+        goal: Goal,
+        q: Sequence[float],
+        branches: tuple[int, ...] = (),
+        free: tuple[Symbol, ...] = (),
+        steps: int = 0,
+        damping: float = 0.0,
+    ) -> bool:
+        """Add joint values to the answers if they reach the goal, improved if `steps` allow it.
+
+        Returns
+        -------
+        bool
+            Whether they reach it, a new answer or not.
+        """
+        values, error = list(q), self.error(goal, q)
+        if steps and error > _ROUNDING * self.chain.reach:
+            values, error = refined(
+                self.chain, self.task, goal, values, self.free_places, steps, damping
+            )
+        if not error <= TOLERANCE * self.chain.reach:
+            return False
+        values = [self.wrapped(k, x) for k, x in enumerate(values)]
+        if not any(self.distance(values, other.q) < _SAME for other in answers):
+            within = self._is_within(values)
+            answers.append(Answer(tuple(values), branches, free, error, within))
+        return True
+
+    def in_order(self, answers: list[Answer], seed: Sequence[float] | None) -> list[Answer]:
+        """Return answers nearest to the seed first; as they are without one."""
+        if seed is None:
+            return answers
+        return sorted(answers, key=lambda answer: self.distance(answer.q, seed))
+
+    def random_values(self, drawn: random.Random) -> list[float]:
+        """Draw joint values; locked joints keep theirs."""
+        reach = self.chain.reach
+        return [
+            self.held[k]
+            if k in self.held
+            else drawn.uniform(-pi, pi)
+            if turns
+            else reach * drawn.uniform(-1, 1)
+            for k, turns in enumerate(self.turning)
+        ]
+
+    def wrapped(self, place: int, value: float) -> float:
+        """Return an angle in (-pi, pi], a slide as it is."""
+        if not self.turning[place]:
+            return value
+        turned = value - 2 * pi * round(value / (2 * pi))
+        return pi if turned <= -pi else turned
+
+    def distance(self, a: Sequence[float], b: Sequence[float], without: int | None = None) -> float:
+        """Return how far apart joint values are, slides as parts of the reach."""
+        total = 0.0
+        for place, (x, y) in enumerate(zip(a, b, strict=True)):
+            if place != without:
+                apart = self.wrapped(place, x - y)
+                total += (apart if self.turning[place] else apart / self.chain.reach) ** 2
+        return sqrt(total)
+
+    def _is_within(self, q: Sequence[float]) -> bool:
+        return all(
+            low - _SAME <= value <= high + _SAME
+            for value, (low, high) in zip(q, self._limits, strict=True)
+        )
+
+
+def _turns(robot: Robot, variable: Symbol) -> bool:
+    return any(
+        joint.variable == variable and joint.type is JointType.REVOLUTE for joint in robot.joints
+    )
+
+
+def _limits(robot: Robot, known: Mapping[Symbol, Expr]) -> list[tuple[float, float]]:
+    limits = []
+    for variable in robot.variables:
+        bounds = robot.limits.get(variable)
+        ends = (-inf, inf)
+        if bounds is not None:
+            lower, upper = (bound.xreplace(dict(known)) for bound in (bounds.lower, bounds.upper))
+            if not (lower.free_symbols or upper.free_symbols):
+                ends = float(lower), float(upper)
+        limits.append(ends)
+    return limits

@@ -1,0 +1,1 @@
+"""The rules that solve for an unknown, one a file."""

@@ -1,0 +1,66 @@
+"""One equation in one slide: linear ``A q + C = 0``, or quadratic ``A q^2 + B q + C = 0``.
+
+Linear: one value, none where A is zero. Quadratic: two values, one where the root is zero, none
+where the radicand is negative.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from symdh.kinematics.inverse.ring import Element
+from symdh.kinematics.inverse.rules.single import BRANCH
+from symdh.kinematics.inverse.solution import Rule, Step
+from symdh.kinematics.inverse.state import Candidate, State, View
+
+#: What it costs that a coefficient is zero at some poses.
+_MAY_VANISH = 4
+
+
+def slide_candidates(state: State) -> Iterator[Candidate]:
+    """Yield a step for each slide that one equation gives."""
+    linear: dict[int, list[tuple[float, tuple[Element, ...], View]]] = {}
+    for view in state.views:
+        open_now = state.open(view.support)
+        if len(open_now) != 1:
+            continue
+        (x,) = open_now
+        if state.ring.is_angle(x):
+            continue
+        parts = _powers(state, view.element, x)
+        if parts is None:
+            continue
+        c, b, a = parts
+        if a:
+            step = Step(x, Rule.SLIDE_SQUARE, (view.used,), (a, b, c), branches=2)
+            yield Candidate(len(a) + len(b) + len(c) + BRANCH, step)
+        elif b:
+            cost = (
+                view.equation.source.effort
+                + 2 * len(b)
+                + len(c)
+                + (0 if _is_constant(state, b) else _MAY_VANISH)
+            )
+            linear.setdefault(x, []).append((cost, (b, c), view))
+    for x, equations in linear.items():
+        equations.sort(key=lambda entry: entry[0])
+        cost, coefficients, view = equations[0]
+        others = tuple(entry[1] for entry in equations[1:4])
+        yield Candidate(cost, Step(x, Rule.SLIDE, (view.used,), coefficients, others))
+
+
+def _powers(state: State, element: Element, x: int) -> list[Element] | None:
+    """Return the coefficients of 1, q and q^2; None where there are higher powers."""
+    k = state.ring.slide_gen(x)
+    parts: list[dict[tuple[int, ...], object]] = [{}, {}, {}]
+    for powers, coefficient in element.terms():
+        if powers[k] > 2:
+            return None
+        parts[powers[k]][(*powers[:k], 0, *powers[k + 1 :])] = coefficient
+    return [state.without_zero(state.ring.ring.from_dict(part)) for part in parts]
+
+
+def _is_constant(state: State, element: Element) -> bool:
+    """Say whether an element is made of numbers of the table alone."""
+    lengths = state.ring.first_lengths
+    return all(k in lengths for powers in element for k, power in enumerate(powers) if power)
