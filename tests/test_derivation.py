@@ -315,7 +315,7 @@ def test_there_are_just_the_chapters_that_the_table_asks_for(name: str) -> None:
         "The product, from the hand to the base",
         "The result",
     ]
-    if case_of(name).robot.variables:
+    if 0 < len(case_of(name).robot.variables) <= 10:  # beyond, the columns fill pages
         wanted += ["Velocity", "Singularities"]
     if case_of(name).robot.values:
         wanted.append("Numbers")

@@ -75,7 +75,8 @@ def _why(robot: Robot, start: Frame, end: Frame) -> str:
     if size <= CLOSED_FORM_LIMIT:
         return f"With {robot.n} rows, the pose worked out one product at a time would fill pages."
     about = f"{size:,}" if size < 10**7 else f"more than 10^{len(str(size)) - 1}"
-    return f"Written out, the pose would have {about} operations, over the limit of {CLOSED_FORM_LIMIT:,}."
+    limit = f"over the limit of {CLOSED_FORM_LIMIT:,}"
+    return f"Written out, the pose would have {about} operations, {limit}."
 
 
 def _backwards(style: Style, start: Frame, end: Frame) -> Chapter:
