@@ -189,7 +189,7 @@ def test_a_recursion_fits_the_page(tmp_path: Path) -> None:
 
 def test_twelve_parallel_joints_fit_the_page(tmp_path: Path) -> None:
     rows = "".join(f"  - {{theta: q{k}, d: 0, a: a{k}, alpha: 0}}\n" for k in range(1, 13))
-    assert overfull(typeset(render_latex(pose_alone(arm(rows))), tmp_path)) == []
+    assert overfull(typeset(render_latex(derive(arm(rows))), tmp_path)) == []
 
 
 WIDE = """\
