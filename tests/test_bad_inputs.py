@@ -536,9 +536,9 @@ def test_code_is_not_escaped_for_the_web(arm: Path, tmp_path: Path, run_symdh: R
     assert run_symdh("derive", arm, "-o", "out").returncode == 0
     assert "#include <math.h>" in (tmp_path / "out" / "arm.c").read_text()
     for path in (tmp_path / "out").iterdir():
-        escaped = "&lt;" in path.read_text(encoding="utf-8")
-        assert escaped == (path.suffix == ".html"), path.name
-        assert "&amp;" not in path.read_text()
+        text = path.read_text(encoding="utf-8")
+        for escaped in ("&lt;", "&amp;"):
+            assert (escaped in text) == (path.suffix == ".html"), path.name
 
 
 # ---------------------------------------------------------------------------- generated code
