@@ -413,6 +413,12 @@ def test_depth_is_limited() -> None:
         parse_xml(from_text("<a>" * 200_000, "deep.urdf"))
 
 
+def test_text_between_elements_is_no_attribute() -> None:
+    root = parse_xml(from_text('<robot name="two">ame="body" <link name="base"/></robot>', "x"))
+    assert set(root.attributes) == {"name"}
+    assert [link.attributes["name"].text for link in root.all("link")] == ["base"]
+
+
 def test_places_of_attributes_whatever_stands_around_them() -> None:
     text = '<r\n  a = "1"\n\tb=\'x > y\'  ü="𝔘 &lt; 2"\n><é c="3"/></r>'
     root = parse_xml(from_text(text, "r.urdf"))

@@ -1,0 +1,145 @@
+"""The same table gives the same bytes: `make repro`.
+
+Derives tables over 32 hash seeds, in locale C, another time zone, folder and user, with both ground
+types of sympy, and with every minor version of sympy and numpy that pyproject.toml allows, each in
+a virtual environment of its own. Prints each environment beside the first, and names every file
+that differs. Exit status 1 when one does.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+EXAMPLES = sorted((ROOT / "examples").glob("*.yaml"))
+CORPUS = sorted((ROOT / "tests" / "data" / "tables").glob("*.yaml"))
+SYMPY = ("1.12.*", "1.13.*", "1.14.*")
+NUMPY = ("1.26.*", "2.0.*", "2.1.*", "2.2.*", "2.3.*", "2.4.*")
+
+#: Run in the environment that is looked at: derives and shows each table, prints a digest of each.
+WORKER = """
+import contextlib, hashlib, io, json, os, sys
+from pathlib import Path
+from symdh.cli.main import run
+digests = {}
+for table in sys.argv[1:]:
+    path = Path(table)
+    out = Path("out", path.stem)
+    printed = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
+    with contextlib.redirect_stdout(printed):
+        status = run(["derive", str(path), "-o", str(out)])
+        status = status or run(["show", str(path), "--format", "json"])
+    if status:
+        sys.exit(f"{path.name}: exit status {status}")
+    contents = {each.name: each.read_bytes() for each in out.iterdir()}
+    printed.flush()
+    contents["printed"] = printed.buffer.getvalue()
+    for name, content in contents.items():
+        digests[f"{path.stem}/{name}"] = hashlib.sha256(content).hexdigest()
+print(json.dumps(digests))
+"""
+
+
+@dataclass(frozen=True)
+class Place:
+    """An environment to derive in."""
+
+    name: str
+    variables: dict[str, str] = field(default_factory=dict)
+    python: Path = Path(sys.executable)
+
+
+def digests(place: Place, tables: list[Path]) -> dict[str, str]:
+    """Derive the tables in a place, in an empty folder; return a digest of each file."""
+    with tempfile.TemporaryDirectory() as folder:
+        variables = {"COLUMNS": "80", "HOME": folder, "PYTHONDONTWRITEBYTECODE": "1"}
+        ran = subprocess.run(
+            [place.python, "-c", WORKER, *map(str, tables)],
+            cwd=folder,
+            env={**os.environ, **variables, **place.variables},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+    if ran.returncode != 0:
+        sys.exit(f"{place.name}: {ran.stderr.strip()}")
+    result: dict[str, str] = json.loads(ran.stdout)
+    return result
+
+
+def seeds(count: int) -> Iterator[Place]:
+    """Give the places that differ in the hash seed, and the ones with another surrounding."""
+    for seed in range(count):
+        yield Place(f"hash seed {seed}", {"PYTHONHASHSEED": str(seed)})
+    bare = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    yield Place("locale C", bare)
+    yield Place("time zone Pacific/Kiritimati", {"TZ": "Pacific/Kiritimati"})
+    yield Place("another user", {"USER": "someone", "LOGNAME": "someone"})
+
+
+def versions(folder: Path, *, quick: bool) -> Iterator[Place]:
+    """Give a place for each ground type and each version of sympy and of numpy."""
+    wanted = [("sympy without gmpy2", ["sympy"]), ("sympy with gmpy2", ["sympy", "gmpy2"])]
+    if not quick:
+        wanted += [(f"sympy {version}", [f"sympy=={version}"]) for version in SYMPY[:-1]]
+        wanted += [(f"numpy {version}", [f"numpy=={version}"]) for version in NUMPY]
+    for name, packages in wanted:
+        python = environment(folder / hashlib.sha256(name.encode()).hexdigest()[:8], packages)
+        if python is None:
+            print(f"{name:40} no such package for this Python: left out")
+            continue
+        yield Place(name, python=python)
+
+
+def environment(folder: Path, packages: list[str]) -> Path | None:
+    """Make a virtual environment with symdh and some packages; None when they do not install."""
+    subprocess.run([sys.executable, "-m", "venv", folder], check=True)
+    python = folder / "bin" / "python"
+    pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    for what in (["--only-binary", ":all:", *packages], ["--editable", str(ROOT)]):
+        if subprocess.run([*pip, *what], capture_output=True, check=False).returncode != 0:
+            return None
+    return python
+
+
+def differing(first: dict[str, str], other: dict[str, str]) -> list[str]:
+    """Name what is not the same in two places."""
+    return sorted(name for name in first.keys() | other if first.get(name) != other.get(name))
+
+
+def main() -> int:
+    """Derive everywhere and compare."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seeds", type=int, default=32)
+    parser.add_argument("--quick", action="store_true", help="no other versions of sympy, numpy")
+    options = parser.parse_args()
+    failed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for tables, places in (
+            (EXAMPLES, seeds(options.seeds)),
+            (
+                EXAMPLES + ([] if options.quick else CORPUS),
+                versions(Path(folder), quick=options.quick),
+            ),
+        ):
+            first = digests(Place("here"), tables)
+            for place in places:
+                wrong = differing(first, digests(place, tables))
+                failed += bool(wrong)
+                verdict = f"{len(wrong)} differ: {', '.join(wrong[:5])}" if wrong else "the same"
+                print(f"{place.name:40} {len(first)} files: {verdict}", flush=True)
+    print("reproducible: yes" if not failed else f"reproducible: no, {failed} places differ")
+    return min(failed, 1)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
