@@ -1,22 +1,58 @@
-"""LaTeX -> PDF with the TeX that is installed, in a fresh folder and within a time limit."""
+"""LaTeX or Typst -> PDF, in a fresh folder and within a time limit."""
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import re
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from symdh.errors import LimitError, OutputError
 
-#: In the order of preference; latexmk repeats runs as often as references need it.
+#: For LaTeX, in the order of preference; latexmk repeats runs as often as references need it.
 ENGINES = ("latexmk", "pdflatex")
+#: The Python package that typesets where there is no TeX.
+TYPST = "typst"
 
 _FLAGS = ("-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape")
-_INSTALL = "on Debian: apt install texlive-latex-recommended texlive-pictures lmodern"
+_INSTALL_TYPST = "pip install 'symdh[pdf]'"
+_INSTALL = (
+    "on Debian: apt install texlive-latex-recommended texlive-pictures lmodern; "
+    f"without TeX: {_INSTALL_TYPST}"
+)
+#: Typst runs in a process of its own, so that it can be ended.
+_RUN_TYPST = """\
+import sys, typst
+try:
+    typst.compile("handout.typ", "handout.pdf", root=".", ignore_system_fonts=True)
+except typst.TypstError as error:
+    print(error.message, file=sys.stderr)
+    sys.exit(1)
+"""
+#: A package that a template of the user's imports is not fetched: nobody answers there.
+_NO_NETWORK = dict.fromkeys(
+    ("http_proxy", "https_proxy", "all_proxy", "HTTP_PROXY", "HTTPS_PROXY", "ALL_PROXY"),
+    "http://127.0.0.1:9",
+)
+
+
+def find_engine() -> str:
+    """Return what a PDF is made with where nothing is asked for: TeX, without it Typst."""
+    if shutil.which("pdflatex") is None and has_typst():
+        return TYPST
+    return "latexmk" if shutil.which("latexmk") else "pdflatex"
+
+
+def has_typst() -> bool:
+    """Say whether the package typst is installed; a folder of that name is none."""
+    found = importlib.util.find_spec(TYPST)
+    return found is not None and found.origin is not None
 
 
 def compile_pdf(tex: str, *, engine: str | None = None, time_limit: float = 60.0) -> bytes:
@@ -46,11 +82,45 @@ def compile_pdf(tex: str, *, engine: str | None = None, time_limit: float = 60.0
     with tempfile.TemporaryDirectory(prefix="symdh-") as folder:
         source = Path(folder) / "handout.tex"
         source.write_text(tex, encoding="utf-8")
-        _run(program, source, time_limit)
+        _run_tex(program, source, time_limit)
         result = source.with_suffix(".pdf")
         if not result.is_file():
             raise OutputError(f"{Path(program).name} made no PDF{_reason(source)}")
         return result.read_bytes()
+
+
+def compile_typst(text: str, *, time_limit: float = 60.0) -> bytes:
+    """Typeset a document in Typst with the fonts that are part of it.
+
+    Parameters
+    ----------
+    text : str
+    time_limit : float
+        Seconds.
+
+    Returns
+    -------
+    bytes
+        The PDF. The same document gives the same bytes.
+
+    Raises
+    ------
+    OutputError
+        When there is no Typst, or it refuses the document.
+    LimitError
+        When the time limit is reached; the run has then been ended.
+    """
+    if not has_typst():
+        raise OutputError(f"typst is not installed ({_INSTALL_TYPST})")
+    with tempfile.TemporaryDirectory(prefix="symdh-") as folder:
+        source = Path(folder) / "handout.typ"
+        source.write_text(text, encoding="utf-8")
+        # -P: nothing in the folder is taken for a module.
+        command = [sys.executable, "-P", "-c", _RUN_TYPST]
+        log = Path(folder) / "errors"
+        if _ended(TYPST, command, Path(folder), _NO_NETWORK, time_limit, log) != 0:
+            raise OutputError(f"typst failed: {_last_line(log)}")
+        return source.with_suffix(".pdf").read_bytes()
 
 
 def _find(engine: str | None) -> str:
@@ -62,33 +132,52 @@ def _find(engine: str | None) -> str:
     raise OutputError(f"{wanted} is not installed ({_INSTALL})")
 
 
-def _run(program: str, source: Path, time_limit: float) -> None:
+def _run_tex(program: str, source: Path, time_limit: float) -> None:
     if Path(program).name == "latexmk":
         command = [program, "-norc", "-pdf", *_FLAGS, source.name]
     else:
         command = [program, *_FLAGS, source.name]
     # The date would make two runs differ; TeX reads nothing from folders but its own.
-    environment = {**os.environ, "SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"}
-    environment |= {"openin_any": "p", "openout_any": "p"}
-    process = subprocess.Popen(
-        command,
-        cwd=source.parent,
-        env=environment,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-    )
-    try:
-        status = process.wait(timeout=time_limit)
-    except subprocess.TimeoutExpired:
-        raise LimitError(
-            f"{Path(program).name} did not end within {time_limit:g} s and was stopped"
-        ) from None
-    finally:
-        _end(process)
-    if status != 0:
-        raise OutputError(f"{Path(program).name} failed{_reason(source)}")
+    settings = {"SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"}
+    settings |= {"openin_any": "p", "openout_any": "p"}
+    name = Path(program).name
+    if _ended(name, command, source.parent, settings, time_limit, Path(os.devnull)) != 0:
+        raise OutputError(f"{name} failed{_reason(source)}")
+
+
+def _ended(
+    name: str,
+    command: Sequence[str],
+    folder: Path,
+    settings: Mapping[str, str],
+    time_limit: float,
+    errors: Path,
+) -> int:
+    """Run a command in a folder, its error messages into a file, and return its exit status.
+
+    Raises
+    ------
+    LimitError
+        When it does not end in time; it has then been ended with all that it started.
+    """
+    with errors.open("wb") as log:
+        process = subprocess.Popen(
+            command,
+            cwd=folder,
+            env={**os.environ, **settings},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=log,
+            start_new_session=True,
+        )
+        try:
+            return process.wait(timeout=time_limit)
+        except subprocess.TimeoutExpired:
+            raise LimitError(
+                f"{name} did not end within {time_limit:g} s and was stopped"
+            ) from None
+        finally:
+            _end(process)
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
@@ -106,3 +195,8 @@ def _reason(source: Path) -> str:
         return ""
     found = re.search(r"^! (.*)$", log, re.MULTILINE)
     return f": {found[1].strip()}" if found else ""
+
+
+def _last_line(log: Path) -> str:
+    lines = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()
+    return lines[-1] if lines else "it said nothing"
