@@ -11,6 +11,7 @@ from sympy import Expr, Symbol, pi
 from symdh.codegen.graph import Graph, Op
 from symdh.codegen.lowering import Lowering
 from symdh.codegen.printer import Printer
+from symdh.derivation.drawing.numbers import UNKNOWN_LENGTH, known_numbers, stand_ins
 from symdh.derivation.numbers import angles
 from symdh.kinematics.chain import segment
 from symdh.kinematics.frame import first_frame, last_frame, place
@@ -32,9 +33,6 @@ _FUNCTIONS = {
     Op.POW: "Math.pow",
 }
 _LETTERS = {("R", 2): "θ", ("T", 2): "d", ("T", 0): "a", ("R", 0): "α"}
-
-#: What a length without a value is drawn as.
-_UNKNOWN_LENGTH = 1.0
 
 
 def arm_script(robot: Robot) -> str:
@@ -97,10 +95,11 @@ def _code(robot: Robot, amount: Expr) -> str:
 def _sliders(robot: Robot) -> Iterable[dict[str, Any]]:
     turning = angles(robot)
     writer, notation = UnicodeWriter(), Notation(robot)
-    reach = _reach(robot, turning)
+    values = _values(robot)
+    reach = sum(abs(values[s]) for s in robot.parameters if s not in turning) or UNKNOWN_LENGTH
     for symbol in (*robot.variables, *robot.parameters):
         angle = symbol in turning
-        low, high = _range(robot, symbol, angle, reach)
+        low, high = _range(robot, symbol, values[symbol], angle, reach)
         degrees = angle and robot.units.angle is not AngleUnit.RADIAN
         unit = "°" if degrees else (" rad" if angle else _length_unit(robot))
         yield {
@@ -108,26 +107,36 @@ def _sliders(robot: Robot) -> Iterable[dict[str, Any]]:
             "label": writer.text(notation.write(symbol)),
             "low": low,
             "high": high,
-            "value": min(max(_value(robot, symbol, angle), low), high),
+            "value": min(max(values[symbol], low), high),
             "degrees": degrees,
             "unit": unit,
         }
 
 
-def _value(robot: Robot, symbol: Symbol, angle: bool) -> float:
-    if symbol in robot.values:
-        return float(robot.values[symbol].evalf())
-    if symbol in robot.limits:
-        limits = robot.limits[symbol]
-        return min(max(0.0, float(limits.lower.evalf())), float(limits.upper.evalf()))
-    return 0.0 if angle or symbol in robot.variables else _UNKNOWN_LENGTH
+def _values(robot: Robot) -> dict[Symbol, float]:
+    """Return where the sliders start: what is known, else joints at zero or as near as they get."""
+    known = known_numbers(robot, {})
+    values = {**stand_ins(robot, known), **known}
+    for symbol in robot.variables:
+        if symbol not in known:
+            low, high = _limits(robot, symbol) or (0.0, 0.0)
+            values[symbol] = min(max(0.0, low), high)
+    return values
 
 
-def _range(robot: Robot, symbol: Symbol, angle: bool, reach: float) -> tuple[float, float]:
-    if symbol in robot.limits:
-        limits = robot.limits[symbol]
-        return float(limits.lower.evalf()), float(limits.upper.evalf())
-    value = _value(robot, symbol, angle)
+def _limits(robot: Robot, symbol: Symbol) -> tuple[float, float] | None:
+    if symbol not in robot.limits:
+        return None
+    limits = robot.limits[symbol]
+    return float(limits.lower.evalf()), float(limits.upper.evalf())
+
+
+def _range(
+    robot: Robot, symbol: Symbol, value: float, angle: bool, reach: float
+) -> tuple[float, float]:
+    limits = _limits(robot, symbol)
+    if limits is not None:
+        return limits
     if angle:
         bound = max(float(pi), abs(value))
         return -bound, bound
@@ -135,12 +144,6 @@ def _range(robot: Robot, symbol: Symbol, angle: bool, reach: float) -> tuple[flo
         bound = max(reach, abs(value))
         return -bound, bound
     return (2 * value, 0.0) if value < 0 else (0.0, 2 * value or reach)
-
-
-def _reach(robot: Robot, turning: set[Symbol]) -> float:
-    """Return the sum of the lengths that are known, for the range of the sliding joints."""
-    lengths = [s for s in robot.parameters if s not in turning]
-    return sum(abs(_value(robot, s, False)) for s in lengths) or _UNKNOWN_LENGTH
 
 
 def _length_unit(robot: Robot) -> str:

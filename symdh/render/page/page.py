@@ -7,12 +7,12 @@ from markupsafe import Markup, escape
 from symdh._version import __version__
 from symdh.derivation.blocks import Document
 from symdh.kinematics.frame import first_frame, last_frame
-from symdh.render.environment import html_environment
+from symdh.render.drawing.svg import render_svg
 from symdh.render.layout import Layout
 from symdh.render.page.arm import arm_script
 from symdh.render.page.katex import katex_script, katex_style
-from symdh.resources import templates_dir
 from symdh.robot import Robot
+from symdh.templating import asset, render
 
 
 def render_page(document: Document, robot: Robot) -> str:
@@ -23,11 +23,13 @@ def render_page(document: Document, robot: Robot) -> str:
     str
         HTML with script, style and fonts inside; it requests nothing.
     """
-    layout = Layout(lambda text: str(escape(text)), _inline_formula)
-    template = html_environment().get_template("page.html.jinja")
-    return template.render(
+    layout = page_layout()
+    return render(
+        "html/page.html.jinja",
         title=document.title,
         subtitle=Markup(layout.inline(document.subtitle)),
+        sheet=document.sheet,
+        preface=[item for block in document.preface for item in layout.items(block)],
         chapters=[
             (chapter.title, [item for block in chapter.blocks for item in layout.items(block)])
             for chapter in document.chapters
@@ -36,16 +38,17 @@ def render_page(document: Document, robot: Robot) -> str:
         version=__version__,
         katex_style=Markup(katex_style()),
         katex_script=Markup(katex_script()),
-        style=Markup(_asset("page.css")),
-        typeset_script=Markup(_asset("typeset.js")),
+        style=Markup(asset("html/page.css")),
+        typeset_script=Markup(asset("html/typeset.js")),
         arm=Markup(arm_script(robot)),
-        view_script=Markup(_asset("view.js")),
+        view_script=Markup(asset("html/view.js")),
     )
 
 
+def page_layout() -> Layout:
+    """Return the layout of whatever is HTML."""
+    return Layout(lambda text: str(escape(text)), _inline_formula, picture=render_svg)
+
+
 def _inline_formula(formula: str) -> str:
-    return f'<span class="formula" data-tex="{escape(formula)}">{escape(formula)}</span>'
-
-
-def _asset(name: str) -> str:
-    return (templates_dir() / "html" / name).read_text(encoding="utf-8")
+    return f'<span class="formula" data-tex="{escape(formula)}">${escape(formula)}$</span>'
