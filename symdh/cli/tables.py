@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symdh.cli import console, patience
@@ -10,6 +11,28 @@ if TYPE_CHECKING:
     from symdh.derivation.blocks import Document
     from symdh.kinematics.frame import Frame
     from symdh.robot import Robot
+
+
+@dataclass(frozen=True, slots=True)
+class Homework:
+    """Which sheet of homework is wanted in place of the handout.
+
+    Attributes
+    ----------
+    sheet : str or None
+        ``"problem"``, ``"solution"``, or None for the handout.
+    points : bool
+        Whether each exercise has a place for points.
+    ask_table : bool
+        Whether the table itself is asked for.
+    """
+
+    sheet: str | None = None
+    points: bool = False
+    ask_table: bool = False
+
+
+HANDOUT = Homework()
 
 
 def read_robot(path: str) -> Robot:
@@ -26,12 +49,35 @@ def read_robot(path: str) -> Robot:
     return loaded.robot
 
 
-def derived(robot: Robot, order: str, notation: str) -> Document:
-    """Derive a robot's document; a person at the terminal is told when it takes long."""
+def derived(robot: Robot, order: str, notation: str, homework: Homework = HANDOUT) -> Document:
+    """Make a robot's document; a person at the terminal is told when it takes long."""
+    with patience.telling(f"deriving {robot.name}"):
+        return document(robot, order, notation, homework)
+
+
+def document(robot: Robot, order: str, notation: str, homework: Homework) -> Document:
+    """Make a robot's handout, or the sheet of homework that is asked for."""
+    if homework.sheet is not None:
+        from symdh.derivation.sheet import sheet
+
+        return sheet(
+            robot,
+            homework.sheet,
+            order=order,
+            naming=notation,
+            points=homework.points,
+            ask_table=homework.ask_table,
+        )
     from symdh.derivation.derive import derive
 
-    with patience.telling(f"deriving {robot.name}"):
-        return derive(robot, order=order, naming=notation)
+    return derive(robot, order=order, naming=notation)
+
+
+def stem(robot: Robot, homework: Homework) -> str:
+    """Return what a robot's files are called: ``arm``, ``arm_problem``."""
+    from symdh.codegen.names import file_stem
+
+    return file_stem(robot.name) + (f"_{homework.sheet}" if homework.sheet else "")
 
 
 def read_preamble(path: str | None) -> str:

@@ -1,4 +1,4 @@
-"""Outside text to a `Robot`: DH tables in YAML, expressions, and single numbers."""
+"""Outside text to a `Robot`: tables in YAML, CSV and Markdown, expressions, single numbers."""
 
 from __future__ import annotations
 

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sympy import Expr, Symbol
 
-from symdh.robot import Units
-from symdh.table.lexer import ExpressionError
+from symdh.robot import AngleUnit, LengthUnit, Units
+from symdh.table.lexer import MAX_EXPRESSION, ExpressionError
 from symdh.table.nodes import MappingNode, Node, ScalarNode
 from symdh.table.parser import parse
-from symdh.table.quantity import resolve
+from symdh.table.quantity import measured_in, resolve
 from symdh.table.report import Report
 from symdh.table.source import Place
-from symdh.table.units import LENGTH, Dimension
+from symdh.table.units import LENGTH, Dimension, Unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +42,14 @@ class Cell:
 class CellReader:
     """Reads the expressions of one table and remembers how they use units of length.
 
+    Parameters
+    ----------
+    report : Report
+    units : Units
+        Those of the table.
+    longest : int
+        How many characters an expression may have.
+
     Attributes
     ----------
     uses_length_unit : bool
@@ -50,27 +58,39 @@ class CellReader:
         Whether every expression so far could be parsed, so that all symbols are known.
     """
 
-    def __init__(self, report: Report, units: Units) -> None:
+    def __init__(self, report: Report, units: Units, longest: int = MAX_EXPRESSION) -> None:
         self.report = report
         self.units = units
+        self.longest = longest
         self.uses_length_unit = False
         self.complete = True
         self._bare_lengths: list[Place] = []
 
-    def read(self, node: Node, dimension: Dimension | None) -> Cell | None:
-        """Read the expression of a node; None, and an error in the report, if it is none."""
+    def read(
+        self, node: Node, dimension: Dimension | None, unit: Unit | None = None
+    ) -> Cell | None:
+        """Read the expression of a node; None, and an error in the report, if it is none.
+
+        A `unit` is what bare numbers mean in this place, whatever they mean in the table.
+        """
         text = scalar(node, "an expression", self.report)
         if text is None:
             self.complete = False
             return None
-        return self.read_part(text, 0, len(text.text), dimension)
+        return self.read_part(text, 0, len(text.text), dimension, unit)
 
     def read_part(
-        self, node: ScalarNode, start: int, end: int, dimension: Dimension | None
+        self,
+        node: ScalarNode,
+        start: int,
+        end: int,
+        dimension: Dimension | None,
+        unit: Unit | None = None,
     ) -> Cell | None:
         """Read the expression between two offsets of a text; see `read`."""
+        units = replace(self.units, angle=unit) if isinstance(unit, AngleUnit) else self.units
         try:
-            parsed = parse(node.text[start:end], self.units)
+            parsed = parse(node.text[start:end], units, self.longest)
         except ExpressionError as problem:
             self.report.error(node.place(start + problem.offset), problem.message)
             self.complete = False
@@ -80,10 +100,14 @@ class CellReader:
             self.report.warning(node.place(start + remark.offset), remark.message)
         quantity = parsed.quantity
         place = node.place(start + quantity.start)
-        if dimension == LENGTH and quantity.bare != 0:
+        if isinstance(unit, LengthUnit):
+            self.uses_length_unit = True
+        elif dimension == LENGTH and quantity.bare != 0:
             self._bare_lengths.append(place)
         try:
-            value, remark_on_bare = resolve(quantity, dimension, self.units)
+            if isinstance(unit, LengthUnit):
+                quantity = measured_in(quantity, unit, units)
+            value, remark_on_bare = resolve(quantity, dimension, units)
         except ExpressionError as problem:
             self.report.error(node.place(start + problem.offset), problem.message)
             # The value as written is good enough to look for further errors.

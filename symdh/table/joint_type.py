@@ -8,9 +8,10 @@ from sympy import Symbol
 
 from symdh.robot import JointType
 from symdh.table.cells import Cell, scalar
+from symdh.table.headers import TYPE
 from symdh.table.nodes import ScalarNode
 from symdh.table.report import Report
-from symdh.table.rows import TYPE, Row
+from symdh.table.rows import Row
 from symdh.table.suggest import brief, did_you_mean
 
 TYPES = {

@@ -9,9 +9,10 @@ from sympy import Symbol
 
 from symdh.robot import Joint, JointType
 from symdh.table.cells import Cell, CellReader
+from symdh.table.headers import PARAMETERS
 from symdh.table.joint_type import HOMES, read_type
 from symdh.table.report import Report
-from symdh.table.rows import PARAMETERS, Row
+from symdh.table.rows import Row
 from symdh.table.units import ANGLE, LENGTH
 from symdh.table.variables import VariableError, choose_variable, read_named_variable
 
@@ -77,7 +78,7 @@ def _read_cells(row: Row, reader: CellReader) -> dict[str, Cell]:
     found = {}
     for name in PARAMETERS:
         if name in row.cells:
-            cell = reader.read(row.cells[name], DIMENSIONS[name])
+            cell = reader.read(row.cells[name], DIMENSIONS[name], row.units.get(name))
             if cell is not None:
                 found[name] = cell
     return found

@@ -65,17 +65,16 @@ _HINTS = {
 }
 
 
-def tokenize(text: str) -> list[Token]:
-    """Split an expression into tokens; the last one is the end.
+def tokenize(text: str, longest: int = MAX_EXPRESSION) -> list[Token]:
+    """Split an expression of at most `longest` characters into tokens; the last one is the end.
 
     Raises
     ------
     ExpressionError
         At the first character that no expression holds, and when the text is too long.
     """
-    if len(text) > MAX_EXPRESSION:
-        message = f"expression is longer than {MAX_EXPRESSION} characters"
-        raise ExpressionError(MAX_EXPRESSION, message)
+    if len(text) > longest:
+        raise ExpressionError(longest, f"expression is longer than {longest} characters")
     end = len(text.rstrip(" \t"))
     tokens = []
     offset = 0

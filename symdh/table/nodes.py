@@ -33,6 +33,9 @@ class ScalarNode:
     quoted : bool
     one_line : bool
         Whether it starts and ends on the same line of the file.
+    offsets : tuple of int
+        Where each character, and the end, stands after the start, when the file has more in it
+        than the text: markup in a Markdown cell. Empty when it has not.
     """
 
     text: str
@@ -40,9 +43,12 @@ class ScalarNode:
     column: int
     quoted: bool = False
     one_line: bool = True
+    offsets: tuple[int, ...] = ()
 
     def place(self, offset: int = 0) -> Place:
         """Return the place of the character at `offset` in the text."""
+        if self.offsets:
+            offset = self.offsets[min(offset, len(self.offsets) - 1)]
         column = self.column + offset
         return Place(self.line, column, column + int(self.quoted))
 
@@ -76,8 +82,14 @@ class SequenceNode:
 Node: TypeAlias = ScalarNode | MappingNode | SequenceNode
 
 
-def parse_nodes(source: Source) -> MappingNode:
+def parse_nodes(source: Source, text: str | None = None) -> MappingNode:
     """Read the text of a table as YAML.
+
+    Parameters
+    ----------
+    source : Source
+    text : str, optional
+        What of it is YAML, with the same lines and columns; by default all of it.
 
     Returns
     -------
@@ -91,8 +103,9 @@ def parse_nodes(source: Source) -> MappingNode:
         aliases, anchors, tags, merge keys, duplicate keys, a second document, or too much of it.
     """
     builder = _Builder(source)
+    events = yaml.parse(source.text if text is None else text, Loader=yaml.SafeLoader)
     try:
-        for count, event in enumerate(yaml.parse(source.text, Loader=yaml.SafeLoader), start=1):
+        for count, event in enumerate(events, start=1):
             if count > MAX_EVENTS:
                 builder.fail(event, f"table has more than {MAX_EVENTS} items")
             builder.take(event)

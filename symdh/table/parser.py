@@ -16,7 +16,7 @@ from sympy import Rational, Symbol, pi
 from symdh.robot import Units
 from symdh.table import quantity as algebra
 from symdh.table.functions import apply
-from symdh.table.lexer import ExpressionError, Token, TokenKind, tokenize
+from symdh.table.lexer import MAX_EXPRESSION, ExpressionError, Token, TokenKind, tokenize
 from symdh.table.names import CONSTANT, FUNCTION_NAMES, canonical_name, why_reserved
 from symdh.table.quantity import Quantity
 from symdh.table.suggest import did_you_mean
@@ -59,7 +59,7 @@ class ParsedExpression:
     has_length_unit: bool
 
 
-def parse(text: str, units: Units) -> ParsedExpression:
+def parse(text: str, units: Units, longest: int = MAX_EXPRESSION) -> ParsedExpression:
     """Read an expression.
 
     Parameters
@@ -68,6 +68,8 @@ def parse(text: str, units: Units) -> ParsedExpression:
     units : Units
         What a bare angle inside ``sin``, ``cos``, ``tan`` means, and the unit that lengths are
         converted to; metre when there is none.
+    longest : int
+        How many characters it may have.
 
     Raises
     ------
@@ -76,7 +78,7 @@ def parse(text: str, units: Units) -> ParsedExpression:
     """
     if _NOT_A_NUMBER.fullmatch(text):
         raise ExpressionError(0, f"{text.strip()} is reserved and not a number")
-    return _Parser(text, units).parse()
+    return _Parser(text, units, longest).parse()
 
 
 @dataclass(slots=True)
@@ -85,6 +87,7 @@ class _Parser:
 
     text: str
     units: Units
+    longest: int
     tokens: list[Token] = field(init=False)
     index: int = 0
     depth: int = 0
@@ -93,7 +96,7 @@ class _Parser:
     has_length_unit: bool = False
 
     def __post_init__(self) -> None:
-        self.tokens = tokenize(self.text)
+        self.tokens = tokenize(self.text, self.longest)
 
     def peek(self) -> Token:
         return self.tokens[self.index]

@@ -2,53 +2,67 @@
 
 from __future__ import annotations
 
-from sympy import Expr
+from collections.abc import Collection
+
+from sympy import Expr, Symbol
 
 from symdh.errors import Diagnostic, TableError
-from symdh.robot import Robot
+from symdh.robot import Units
 from symdh.table.lexer import ExpressionError
 from symdh.table.parser import parse
 from symdh.table.quantity import resolve
 from symdh.table.units import LENGTH
 
-POINT = "--at"
-"""The file name in diagnostics of `parse_point`."""
 
+def parse_point(
+    text: str, units: Units, name: str, joints: Collection[Symbol] = ()
+) -> tuple[Expr, Expr, Expr]:
+    """Read ``0, 0, L`` or ``10 mm, 0, a4/2``.
 
-def parse_point(robot: Robot, text: str) -> tuple[Expr, Expr, Expr]:
-    """Read ``0, 0, L`` or ``10 mm, 0, a4/2``; a bare number means what the table's units say.
+    Parameters
+    ----------
+    text : str
+    units : Units
+        What a bare number means.
+    name : str
+        The file name in diagnostics: the option that holds the point.
+    joints : collection of Symbol
+        Joint variables; none may stand in a point that is fixed in its frame.
 
     Returns
     -------
     tuple of 3 Expr
-        Exact, in the table's length unit. Symbols may be the table's parameters or new ones.
+        Exact, in the length unit of `units`; any other symbol may stand in it.
 
     Raises
     ------
     TableError
-        When the text is not such a point, or a joint variable stands in it; its line is 1.
+        When the text is not such a point; its line is 1.
     """
     parts = _parts(text)
-    if len(parts) != 3:
-        raise _error(
-            text, len(text), f"a point has three coordinates, x,y,z; here are {len(parts)}"
-        )
-    x, y, z = (_length(robot, text, offset, part) for offset, part in parts)
+    try:
+        if len(parts) != 3:
+            message = f"a point has three coordinates, x,y,z; here are {len(parts)}"
+            raise ExpressionError(len(text), message)
+        x, y, z = (_length(offset, part, units, joints) for offset, part in parts)
+    except ExpressionError as problem:
+        column = problem.offset + 1
+        raise TableError([Diagnostic(problem.message, name, 1, column, text, column)]) from None
     return x, y, z
 
 
-def _length(robot: Robot, text: str, offset: int, part: str) -> Expr:
+def _length(offset: int, part: str, units: Units, joints: Collection[Symbol]) -> Expr:
     # Blanks in place of what stands before keep the columns of a diagnostic those of the text.
     try:
-        parsed = parse(" " * offset + part, robot.units)
+        parsed = parse(" " * offset + part, units)
         for symbol, place in parsed.names.items():
-            if symbol in robot.variables:
+            if symbol in joints:
                 message = f"{symbol} moves a joint; a point is fixed in its frame"
                 raise ExpressionError(place, message)
-        return resolve(parsed.quantity, LENGTH, robot.units)[0]
+        return resolve(parsed.quantity, LENGTH, units)[0]
     except ExpressionError as problem:
         start = offset + len(part) - len(part.lstrip())
-        raise _error(text, max(problem.offset, start), problem.message) from None
+        raise ExpressionError(max(problem.offset, start), problem.message) from None
 
 
 def _parts(text: str) -> list[tuple[int, str]]:
@@ -61,7 +75,3 @@ def _parts(text: str) -> list[tuple[int, str]]:
             parts.append((start, text[start:offset]))
             start = offset + 1
     return [*parts, (start, text[start:])]
-
-
-def _error(text: str, offset: int, message: str) -> TableError:
-    return TableError([Diagnostic(message, POINT, 1, offset + 1, text, offset + 1)])

@@ -160,6 +160,26 @@ def constant_or_rest(value: Expr, dimension: Dimension | None, start: int) -> Qu
     return Quantity(rest=value, dimension=None if dimension == NUMBER else dimension, start=start)
 
 
+def measured_in(quantity: Quantity, unit: LengthUnit, units: Units) -> Quantity:
+    """Take the bare numbers of a length for numbers of `unit`, in a table with `units`.
+
+    Raises
+    ------
+    ExpressionError
+        When a bare number is part of a product, and could be a length or a factor.
+    """
+    target = units.length or LengthUnit.METRE
+    if unit is target:
+        return quantity
+    if quantity.mixed_at is not None:
+        message = f"write the unit of this product's numbers; the table is in {target.value}"
+        raise ExpressionError(quantity.mixed_at, message)
+    rest = quantity.rest
+    if quantity.dimension is None and not rest.free_symbols:
+        rest = convert_length(rest, unit, target)
+    return replace(quantity, bare=convert_length(quantity.bare, unit, target), rest=rest)
+
+
 def resolve(quantity: Quantity, wanted: Dimension | None, units: Units) -> tuple[Expr, str]:
     """Give the bare numbers the unit that they have where `wanted` is measured.
 

@@ -8,13 +8,15 @@ from dataclasses import dataclass, replace
 from symdh.errors import Diagnostic
 from symdh.robot import LengthUnit, Robot, Units
 from symdh.table.cells import CellReader
+from symdh.table.form import form_of
+from symdh.table.headers import Columns, read_columns
 from symdh.table.joints import DIMENSIONS, read_joints
 from symdh.table.labels import default_name, read_name, read_title
-from symdh.table.nodes import MappingNode, Node, parse_nodes
+from symdh.table.nodes import MappingNode, Node
 from symdh.table.numbers import read_limits, read_values
 from symdh.table.report import Report
 from symdh.table.rows import Row, rows_of_columns, rows_of_joints
-from symdh.table.settings import read_convention, read_units
+from symdh.table.settings import read_convention, read_units, units_of_columns
 from symdh.table.source import START, Source
 from symdh.table.suggest import brief, did_you_mean
 from symdh.table.uses import dimensions_of_symbols
@@ -70,16 +72,22 @@ def read_table(source: Source) -> LoadedTable:
         With every error and warning, in the order of the file.
     """
     report = Report(source)
-    sections = _sections(parse_nodes(source), report)
-    convention = read_convention(sections.get("convention"), report)
+    form = form_of(source)
+    root = form.nodes(source)
+    sections = _sections(root, report)
+    columns = _read_columns(sections, report)
+    # A misspelt key has its own message.
+    advice = "" if _is_misspelt("convention", root) else form.convention
+    convention = read_convention(sections.get("convention"), report, columns.teller, advice)
     name = read_name(sections["name"], report) if "name" in sections else None
     title = read_title(sections["title"], report) if "title" in sections else None
-    reader = CellReader(report, read_units(sections.get("units"), report))
+    units = units_of_columns(read_units(sections.get("units"), report), columns.units)
+    reader = CellReader(report, units)
 
     base = _read_motions("base", sections, reader)
     tool = _read_motions("tool", sections, reader)
     outer = [placed.cell for placed in (*base, *tool)]
-    rows = read_joints(_read_rows(sections, report), outer, reader)
+    rows = read_joints(_read_rows(sections, columns, report), outer, reader)
 
     cells = [*outer, *(cell for row in rows for cell in row.cells.values())]
     uses = dimensions_of_symbols((cell.value, cell.dimension) for cell in cells)
@@ -116,7 +124,20 @@ def _sections(root: MappingNode, report: Report) -> dict[str, Node]:
     return sections
 
 
-def _read_rows(sections: Mapping[str, Node], report: Report) -> list[Row]:
+def _is_misspelt(key: str, root: MappingNode) -> bool:
+    """Say whether an unknown key of the table is taken for `key`."""
+    meant = did_you_mean(key, (key,))
+    unknown = (each.text for each, _ in root.items if each.text not in KEYS)
+    return any(did_you_mean(each, KEYS, _KEY_ALIASES) == meant for each in unknown)
+
+
+def _read_columns(sections: Mapping[str, Node], report: Report) -> Columns:
+    if "columns" in sections and "rows" in sections and "joints" not in sections:
+        return read_columns(sections["columns"], report)
+    return Columns()
+
+
+def _read_rows(sections: Mapping[str, Node], header: Columns, report: Report) -> list[Row]:
     """Read the rows in whichever spelling the table has them."""
     joints, columns, rows = (sections.get(key) for key in ("joints", "columns", "rows"))
     if joints is not None:
@@ -125,7 +146,7 @@ def _read_rows(sections: Mapping[str, Node], report: Report) -> list[Row]:
                 report.error(other.place(), "give the rows once: as joints, or as columns and rows")
         return rows_of_joints(joints, report)
     if columns is not None and rows is not None:
-        return rows_of_columns(columns, rows, report)
+        return rows_of_columns(header, rows, report)
     if columns is None and rows is None:
         report.error(START, "joints is missing: the list of rows (or columns and rows)")
     elif rows is None and columns is not None:

@@ -147,31 +147,20 @@ def parse_matrix(text: str, name: str = "--matrix") -> tuple[Expr, ...]:
     TableError
         With every mistake at its column.
     """
-    return _parse_list(text, name, "matrix", NUMBER, 9)
-
-
-def parse_point(text: str, units: Units = NO_UNITS, name: str = "--point") -> tuple[Expr, ...]:
-    """Read three coordinates: ``1,2,3`` or ``a_x, a_y, 0``; see `parse_matrix`."""
-    return _parse_list(text, name, "point", LENGTH, 3, units)
-
-
-def _parse_list(
-    text: str, name: str, key: str, dimension: Dimension, count: int, units: Units = NO_UNITS
-) -> tuple[Expr, ...]:
-    node, reader = _line(text, name, units)
-    cells = _read_list(node, key, dimension, count, reader)
+    node, reader = _line(text, name)
+    cells = _read_list(node, "matrix", NUMBER, 9, reader)
     reader.report.raise_errors()
     return _amounts(cells) or ()
 
 
-def _line(text: str, name: str, units: Units = NO_UNITS) -> tuple[ScalarNode, CellReader]:
+def _line(text: str, name: str) -> tuple[ScalarNode, CellReader]:
     """Return one line of the command line as the reader of files sees a text."""
     source = from_text(text, name)
     node = ScalarNode(source.text, 1, 1)
     report = Report(source)
     if "\n" in source.text:
         raise source.error(node.place(source.text.index("\n")), "this must stand on one line")
-    return node, CellReader(report, units)
+    return node, CellReader(report, NO_UNITS)
 
 
 def _sections(root: MappingNode, report: Report) -> dict[str, Node]:

@@ -2,35 +2,18 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 
-from symdh.table.cells import scalar
+from symdh.table.headers import COLUMN_ALIASES, COLUMNS, PARAMETERS, Columns, column_name
 from symdh.table.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from symdh.table.report import Report
 from symdh.table.source import Place
 from symdh.table.suggest import brief, did_you_mean
+from symdh.table.units import Unit
 
 MAX_JOINTS = 200
-
-PARAMETERS = ("theta", "d", "a", "alpha")
-TYPE = "type"
-VARIABLE = "variable"
-LABELS = ("i", "joint", "link", "notes")
-"""Columns that are for people: read and left alone."""
-
-_COLUMNS = (*PARAMETERS, TYPE, VARIABLE, *LABELS)
-_COLUMN_ALIASES = {
-    "twist": "alpha",
-    "length": "a",
-    "r": "a",
-    "offset": "d",
-    "angle": "theta",
-    "q": "theta",
-}
-_GREEK = str.maketrans({"θ": "theta", "ϑ": "theta", "α": "alpha", "$": "", "\\": "", " ": ""})
-_INDEX = re.compile(r"(?:_?(?:\{i(?:[-−]1)?\}|\(i(?:[-−]1)?\)|i(?:[-−]1)?)|ᵢ(?:₋₁)?)\Z")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,23 +27,14 @@ class Row:
     place : Place
     cells : mapping of str to Node
         Every one of theta, d, a and alpha, where the row was complete.
+    units : mapping of str to AngleUnit or LengthUnit
+        What bare numbers of a parameter mean, where the name of its column says so.
     """
 
     number: int
     place: Place
     cells: Mapping[str, Node] = field(default_factory=dict)
-
-
-def column_name(written: str) -> str | None:
-    """Return the column that a header means, or None.
-
-    Accepts what textbooks print: ``θ``, ``theta_i``, ``alpha_{i-1}``, ``$a_{i-1}$``, ``αᵢ₋₁``.
-    """
-    name = written.translate(_GREEK)
-    if name in _COLUMNS:
-        return name
-    bare = _INDEX.sub("", name)
-    return bare if bare in PARAMETERS else None
+    units: Mapping[str, Unit] = field(default_factory=dict)
 
 
 def rows_of_joints(node: Node, report: Report) -> list[Row]:
@@ -79,28 +53,35 @@ def rows_of_joints(node: Node, report: Report) -> list[Row]:
     return rows
 
 
-def rows_of_columns(columns: Node, rows: Node, report: Report) -> list[Row]:
-    """Read ``columns`` and ``rows``, each row a list in the order of the columns."""
-    names = _column_names(columns, report)
+def rows_of_columns(columns: Columns, rows: Node, report: Report) -> list[Row]:
+    """Read ``rows``, each a list in the order of the columns."""
     if not isinstance(rows, SequenceNode):
         _refuse_no_list("rows", rows, report)
         return []
-    if not names:
+    if not columns.names:
         return []
     read = []
     for number, item in enumerate(_counted(rows, "rows", report), start=1):
         if not isinstance(item, SequenceNode):
             report.error(item.place(), f"row {number} must be a list: [...]")
-        elif len(item.items) != len(names):
+        elif len(item.items) != len(columns.names):
             message = (
-                f"row {number} has {len(item.items)} cells, and there are {len(names)} columns"
+                f"row {number} has {len(item.items)} cells, "
+                f"and there are {len(columns.names)} columns"
             )
-            report.error(item.place(), message)
+            report.error(item.place(), message + _hint_of_commas(item, len(columns.names)))
         else:
-            pairs = zip(names, item.items, strict=True)
+            pairs = zip(columns.names, item.items, strict=True)
             cells = {name: cell for name, cell in pairs if name is not None}
-            read.append(Row(number, item.place(), cells))
+            read.append(Row(number, item.place(), cells, columns.units))
     return read
+
+
+def _hint_of_commas(row: SequenceNode, wanted: int) -> str:
+    """Say where the decimal point is in a row that a decimal comma may have cut."""
+    numbers = [isinstance(cell, ScalarNode) and cell.text.isdigit() for cell in row.items]
+    cut = len(numbers) > wanted and any(both == (True, True) for both in pairwise(numbers))
+    return "; a decimal point is a point, not a comma" if cut else ""
 
 
 def _counted(node: SequenceNode, key: str, report: Report) -> tuple[Node, ...]:
@@ -125,7 +106,7 @@ def _cells_of_mapping(node: MappingNode, report: Report) -> dict[str, Node]:
     for key, value in node.items:
         name = column_name(key.text)
         if name is None:
-            hint = did_you_mean(key.text, _COLUMNS, _COLUMN_ALIASES)
+            hint = did_you_mean(key.text, COLUMNS, COLUMN_ALIASES)
             report.error(key.place(), f"key {brief(key.text)} unknown in a row{hint}")
         elif name in cells:
             report.error(key.place(), f"key {key.text} is given twice; both are {name}")
@@ -140,30 +121,3 @@ def _complete_row(number: int, place: Place, cells: Mapping[str, Node], report: 
         noun = "key" if len(missing) == 1 else "keys"
         report.error(place, f"missing {noun} {', '.join(missing)} in row {number}")
     return Row(number, place, cells)
-
-
-def _column_names(node: Node, report: Report) -> list[str | None]:
-    """Return the column of every header, None for one that is wrong and already noted."""
-    if not isinstance(node, SequenceNode):
-        report.error(node.place(), "columns must be a list such as [alpha, a, d, theta]")
-        return []
-    names: list[str | None] = []
-    for item, name in _headers(node, report):
-        if name is not None and name in names:
-            report.error(item.place(), f"column {name} is given twice")
-        names.append(name)
-    missing = [name for name in PARAMETERS if name not in names]
-    if missing and None not in names:
-        noun = "column" if len(missing) == 1 else "columns"
-        report.error(node.place(), f"missing {noun} {', '.join(missing)}")
-    return names
-
-
-def _headers(node: SequenceNode, report: Report) -> Iterator[tuple[Node, str | None]]:
-    for item in node.items:
-        text = scalar(item, "the name of a column", report)
-        name = column_name(text.text) if text else None
-        if text is not None and name is None:
-            hint = did_you_mean(text.text, _COLUMNS, _COLUMN_ALIASES)
-            report.error(text.place(), f"column {brief(text.text)} unknown{hint}")
-        yield item, name

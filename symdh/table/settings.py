@@ -7,11 +7,12 @@ from typing import TypeVar
 
 from symdh.robot import AngleUnit, Convention, LengthUnit, Units
 from symdh.table.cells import scalar
+from symdh.table.headers import Header
 from symdh.table.nodes import MappingNode, Node
 from symdh.table.report import Report
 from symdh.table.source import START
 from symdh.table.suggest import brief, did_you_mean
-from symdh.table.units import ANGLE_UNITS, LENGTH_UNITS, UNIT_ALIASES
+from symdh.table.units import ANGLE_UNITS, LENGTH_UNITS, UNIT_ALIASES, Unit
 
 _T = TypeVar("_T")
 
@@ -30,16 +31,26 @@ _CONVENTION_ALIASES = {
 }
 
 
-def read_convention(node: Node | None, report: Report) -> Convention:
-    """Read the convention; a table that gives none is read as standard, with a warning."""
+def read_convention(
+    node: Node | None, report: Report, teller: Header | None = None, advice: str = ""
+) -> Convention:
+    """Read the convention, which the key says, or else the index of a column: ``alpha_{i-1}``.
+
+    A table that tells it in neither way is read as standard, with a warning that gives `advice`;
+    with none where there is no advice to give.
+    """
+    told = teller.convention if teller else None
+    if node is None and told is not None:
+        return told
     if node is None:
-        report.warning(
-            START,
-            "no convention is given; read as standard (distal). "
-            "Write `convention: standard` or `convention: modified`",
-        )
+        if advice:
+            message = "no convention is given; read as standard (distal)"
+            report.warning(START, f"{message}. {advice}")
         return Convention.STANDARD
     found = _word("convention", node, _CONVENTIONS, _CONVENTION_ALIASES, report)
+    if teller and teller.node and found not in (None, told):
+        message = f"the table says that it is {found.value}, and this column is of the other"
+        report.warning(teller.node.place(), f"{message} convention")
     return found or Convention.STANDARD
 
 
@@ -61,6 +72,16 @@ def read_units(node: Node | None, report: Report) -> Units:
             hint = did_you_mean(key.text, ("angle", "length"))
             report.error(key.place(), f"key {brief(key.text)} unknown in units{hint}")
     return Units(angle, length)
+
+
+def units_of_columns(said: Units, columns: Mapping[str, Unit]) -> Units:
+    """Complete what a table says with the units that all its columns of angles or lengths share."""
+    angle = columns.get("theta") if columns.get("theta") is columns.get("alpha") else None
+    length = columns.get("a") if columns.get("a") is columns.get("d") else None
+    return Units(
+        said.angle or (angle if isinstance(angle, AngleUnit) else None),
+        said.length or (length if isinstance(length, LengthUnit) else None),
+    )
 
 
 def _word(

@@ -35,6 +35,7 @@ _DIMENSION_NAMES = {NUMBER: "a number", ANGLE: "an angle", LENGTH: "a length"}
 
 ANGLE_UNITS = {"deg": AngleUnit.DEGREE, "°": AngleUnit.DEGREE, "rad": AngleUnit.RADIAN}
 LENGTH_UNITS = {unit.value: unit for unit in LengthUnit}
+Unit = AngleUnit | LengthUnit
 UNIT_NAMES = (*ANGLE_UNITS, *LENGTH_UNITS)
 
 UNIT_ALIASES = {

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from sympy import Add, Symbol
 
 from symdh.table.cells import Cell, scalar
+from symdh.table.headers import VARIABLE
 from symdh.table.names import canonical_name
 from symdh.table.report import Report
-from symdh.table.rows import VARIABLE, Row
+from symdh.table.rows import Row
 from symdh.table.source import Place
 from symdh.table.suggest import brief
 
