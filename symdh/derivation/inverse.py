@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from math import pi
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from math import pi, prod
 
 from sympy import Expr, Integer, Symbol
 
@@ -21,15 +22,17 @@ from symdh.derivation.blocks import (
     ParameterTable,
     Text,
 )
-from symdh.derivation.inverse_names import Writer
+from symdh.derivation.inverse_names import Writer, listed
 from symdh.derivation.inverse_steps import step_chapter
 from symdh.derivation.legend import legend
 from symdh.derivation.style import Naming, Style
 from symdh.derivation.words import counted, number_word
+from symdh.kinematics.inverse.branches import Branches, branches_of
 from symdh.kinematics.inverse.inverse import InverseKinematics, Method
 from symdh.kinematics.inverse.judge import Answer
 from symdh.kinematics.inverse.solution import ClosedForm, Rule
 from symdh.kinematics.inverse.structure import Structure
+from symdh.kinematics.inverse.task import Kind
 from symdh.notation.nodes import (
     Generic,
     Juxtaposed,
@@ -38,6 +41,7 @@ from symdh.notation.nodes import (
     Node,
     Number,
     Rounded,
+    Sum,
 )
 from symdh.notation.numbers import figures
 from symdh.robot import AngleUnit, Robot
@@ -46,7 +50,8 @@ _METHOD = {
     Method.CLOSED_FORM: "Solved in closed form;",
     Method.NOMINAL: (
         "There is no closed form of this very arm. Solved by that of its nominal arm, without "
-        "small lengths and angles, improved by Newton's method;"
+        "small lengths and angles, improved by Newton's method, which may miss a solution near "
+        "singular poses;"
     ),
     Method.ONE_JOINT: (
         "There is no closed form. Solved by a search over one joint with the others in closed "
@@ -68,10 +73,13 @@ class Solved:
     goal : rows of numbers
         The pose that was asked for.
     answers : sequence of Answer
+    values : mapping of Symbol to Expr
+        Numbers for parameters that are not the table's own.
     """
 
     goal: Sequence[Sequence[float]]
     answers: Sequence[Answer]
+    values: Mapping[Symbol, Expr] = field(default_factory=dict)
 
 
 def inverse_document(
@@ -101,8 +109,8 @@ def inverse_document(
 
 def _derivation(found: InverseKinematics, form: ClosedForm, naming: Naming) -> list[Chapter]:
     style = Style(form.arm.robot, naming=naming)
-    writer = Writer(style, form)
-    steps = [step_chapter(writer, k, step) for k, step in enumerate(form.steps, start=1)]
+    writer = Writer(style, form, branches_of(form))
+    steps = [step_chapter(writer, step) for step in form.steps]
     given = _given(found, form, writer)
     meanings = legend(style, [node for chapter in steps for node in _formulas(chapter.blocks)])
     if meanings is not None:
@@ -116,29 +124,50 @@ def _given(found: InverseKinematics, form: ClosedForm, writer: Writer) -> Chapte
     wanted = [Name(v.name) for v in arm.robot.variables]
     chosen = "as asked for" if task.named else "as fits the arm"
     joints = counted(len(arm.moving), "joint")
+    goal = Generic("T" if arm.is_shifted else "G")
     blocks: list[Block] = [
         Paragraph(
             (
-                *(f"Wanted: {joints}, ", *_listed(wanted), f". Given: {task.description}"),
-                *(f" ({chosen})", _reachable(form), ". All of the goal is known:"),
+                *(f"Wanted: {joints}, ", *listed(wanted), f". Given: {task.description}"),
+                *(f" ({chosen})", _reachable(form), ", so that all of this is known:"),
             )
         ),
-        NamedMatrix((Generic("G"), _chain_name(writer)), _goal_matrix(form)),
+        NamedMatrix((goal, _chain_name(writer)), _goal_matrix(form, "p")),
     ]
-    if task.kind.value == "position":
-        blocks.append(Paragraph(("A dot stands for what is not given.",)))
-    blocks += _ends(form, writer)
+    if task.kind is Kind.POSITION:
+        blocks.append(Paragraph(("A star stands for what is not given.",)))
+    blocks += _ends(form, writer, goal)
     blocks += _letters(form, writer)
+    blocks += _shifted(form, writer)
     if arm.locked:
-        held = _listed([Name(v.name) for v in arm.locked])
+        held = listed([Name(v.name) for v in arm.locked])
         verb = "is" if len(arm.locked) == 1 else "are"
         blocks.append(Paragraph((*held, f" {verb} locked and known.")))
     blocks += [Paragraph(note) for note in structure_notes(found.structure)]
-    blocks += _shifted(form, writer)
+    blocks += _sums(form, writer)
     blocks += _seen_from_the_hand(form, writer)
-    order = [writer.unknown(s.unknown) for s in form.steps if s.rule not in (Rule.NAMES, Rule.SUM)]
-    blocks.append(Paragraph(("The unknowns are found in the order ", *_listed(order), ".")))
+    order = [
+        writer.unknown(step.unknown)
+        for step in form.steps
+        if not step.definitions and not (step.rule is Rule.SUM and writer.is_sum(step.unknown))
+    ]
+    blocks.append(Paragraph(("The unknowns are found in the order ", *listed(order), ".")))
     return Chapter("What is given", tuple(blocks))
+
+
+def _sums(form: ClosedForm, writer: Writer) -> list[Block]:
+    """Say what the unknowns are that are sums of joint angles."""
+    found = [step.unknown for step in form.steps if not step.definitions]
+    rows = tuple(
+        EntryStep(
+            writer.unknown(unknown),
+            (writer.expression(form.ring.unknown_expression(unknown)),),
+            None,
+        )
+        for unknown in sorted(set(found))
+        if form.ring.is_angle(unknown) and writer.is_sum(unknown)
+    )
+    return [EntrySteps(rows)] if rows else []
 
 
 def _reachable(form: ClosedForm) -> str:
@@ -152,28 +181,33 @@ def _chain_name(writer: Writer) -> Node:
     return names[0] if len(names) == 1 else Juxtaposed(names)
 
 
-def _goal_matrix(form: ClosedForm) -> Matrix:
-    allowed = form.task.allowed(form.ring.goal_position_names)
+def _goal_matrix(form: ClosedForm, position: str) -> Matrix:
+    """Return the goal's matrix, its position called p or w."""
+    places = [f"{position}_{axis}" for axis in "xyz"]
+    allowed = form.task.allowed(places)
     rows = []
     for r in range(3):
-        names = [*(f"r_{r + 1}{c}" for c in (1, 2, 3)), form.ring.goal_position_names[r]]
-        rows.append(tuple(Name(n) if n in allowed else Generic("·") for n in names))
+        names = [*(f"r_{r + 1}{c}" for c in (1, 2, 3)), places[r]]
+        rows.append(tuple(Name(n) if n in allowed else Generic("*") for n in names))
     last = tuple(Number(Integer(int(c == 3))) for c in range(4))
     return Matrix((*rows, last))
 
 
-def _ends(form: ClosedForm, writer: Writer) -> list[Block]:
+def _ends(form: ClosedForm, writer: Writer, goal: Node) -> list[Block]:
     """Say that base and tool are taken off."""
     robot = form.arm.given
-    if robot.base and robot.tool and not form.arm.tool_inside:
-        ends = "The base and the tool of the table are known, and G is what remains without them."
-    elif robot.base:
-        ends = "The base of the table is known, and G is what remains without it."
-    elif robot.tool and not form.arm.tool_inside:
-        ends = "The tool of the table is known, and G is what remains without it."
+    tool_off = bool(robot.tool) and not form.arm.tool_inside
+    if robot.base and tool_off:
+        ends = (
+            "The base and the tool of the table are known, and ",
+            " is what remains without them.",
+        )
     else:
-        ends = ""
-    blocks: list[Block] = [Paragraph((ends,))] if ends else []
+        end = "base" if robot.base else "tool"
+        ends = f"The {end} of the table is known, and ", " is what remains without it."
+    blocks: list[Block] = []
+    if robot.base or tool_off:
+        blocks.append(Paragraph((ends[0], goal, ends[1])))
     if form.arm.tool_inside:
         last = writer.style.link_name(robot.n)
         blocks.append(Paragraph(("The tool of the table is part of ", last, ".")))
@@ -226,26 +260,42 @@ def _rows(rows: Sequence[int]) -> str:
 
 
 def _shifted(form: ClosedForm, writer: Writer) -> list[Block]:
-    """Give w where offsets at the ends were taken off p."""
+    """Give w where offsets at the ends were taken off p, and the goal with it."""
     arm, ring = form.arm, form.ring
     if not arm.is_shifted:
         return []
     rows = []
     for axis in form.task.axes or (0, 1, 2):
-        value = Symbol(f"p_{'xyz'[axis]}", real=True) - arm.front[axis]
-        for c in range(3):
-            value = value - arm.hand[c] * Symbol(f"r_{axis + 1}{c + 1}", real=True)
+        terms: list[Expr] = [-arm.front[axis]]
+        terms += [-arm.hand[c] * Symbol(f"r_{axis + 1}{c + 1}", real=True) for c in range(3)]
+        # The position stands in front, where a reader looks for it.
+        written = [Name(f"p_{'xyz'[axis]}"), *(writer.expression(t) for t in terms if t != 0)]
+        value = written[0] if len(written) == 1 else Sum(tuple(written))
         name = writer.expression(Symbol(ring.goal_position_names[axis], real=True))
-        rows.append(EntryStep(name, (writer.expression(value),), None))
-    links = [writer.style.link_name(k) for k in (1, arm.robot.n)]
+        rows.append(EntryStep(name, (value,), None))
+    ends = []
+    if any(not part.is_zero for part in arm.front):
+        ends.append(writer.style.link_name(arm.moving[0]))
+    if any(not part.is_zero for part in arm.hand):
+        ends.append(writer.style.link_name(arm.moving[-1]))
+    one = len(set(ends)) == 1
     text: list[Inline] = [
-        "The offsets at the ends of the chain are known and are taken to the known side. In what "
-        "follows ",
-        *_listed(list(dict.fromkeys(links)) if form.task.whole_pose else links[:1]),
-        " stand without them" if form.task.whole_pose and len(set(links)) > 1 else " is without it",
-        ", and the position is that of the point",
+        "The offset at the end of the chain is known and is taken to the known side. In what "
+        "follows "
+        if one
+        else "The offsets at the ends of the chain are known and are taken to the known side. In "
+        "what follows ",
+        *listed(list(dict.fromkeys(ends))),
+        " is without it" if one else " stand without them",
+        ", and the position is that of the point w:",
     ]
-    return [Paragraph(tuple(text)), EntrySteps(tuple(rows))]
+    known = NamedMatrix((Generic("G"), _chain_name(writer)), _goal_matrix(form, "w"))
+    return [
+        Paragraph(tuple(text)),
+        EntrySteps(tuple(rows)),
+        Paragraph(("What is known is now",)),
+        known,
+    ]
 
 
 def _seen_from_the_hand(form: ClosedForm, writer: Writer) -> list[Block]:
@@ -275,35 +325,51 @@ def _solutions(form: ClosedForm, writer: Writer) -> Chapter:
     if not steps:
         text = "Every step has one value, so there is one solution, or none out of reach."
         return Chapter("The solutions", (Paragraph((text,)),))
-    product = " times ".join(number_word(step.branches) for step in steps)
+    factors = " times ".join(number_word(step.branches) for step in steps)
     total = form.most_solutions
     lead: Text = (
-        f"The branches make a tree: {product} is {total}, so there are at most {total} solutions. "
+        f"The branches make a tree: {factors} is {total}, so there are at most {total} solutions. "
         if len(steps) > 1
         else f"There are at most {total} solutions. ",
-        "Forward kinematics decides on each; those out of reach or false are left out. The values "
-        "of the branching unknowns by their numbers in the steps above:",
+        "Forward kinematics decides on each; those out of reach or false are left out.",
     )
     header = (Generic("k"), *(writer.unknown(step.unknown) for step in steps))
     rows: list[tuple[Node, ...]] = []
-    for k in range(total):
-        rest = k
-        cells: list[Node] = []
-        for step in reversed(steps):
-            rest, branch = divmod(rest, step.branches)
-            cells.append(Rounded(f"({branch + 1})"))
-        rows.append((Rounded(str(k + 1)), *reversed(cells)))
-    names = form.branch_names
-    notes: list[Text] = [
-        (
-            writer.unknown(step.unknown),
-            ": " + ", ".join(f"({b}) {name}" for b, name in enumerate(names[step.unknown], 1)),
+    notes: list[Text] = []
+    for k, taken in enumerate(product(*(range(step.branches) for step in steps)), start=1):
+        cells = (
+            writer.unknown(step.unknown, str(branch + 1))
+            for step, branch in zip(steps, taken, strict=True)
         )
-        for step in steps
-    ]
+        rows.append((Rounded(str(k)), *cells))
+        names = _names_of(writer.branches, taken)
+        notes += [(f"{k}: {', '.join(names)}.",)] if names else []
+    open_ = [f"{names[0]} or {names[1]}" for names in _undecided(writer.branches)]
+    if open_:
+        notes.append((f"Whether a solution is {' and '.join(open_)} depends on the goal.",))
     return Chapter(
         "The solutions", (Paragraph(lead), ParameterTable(header, tuple(rows), tuple(notes)))
     )
+
+
+def _names_of(branches: Branches, taken: tuple[int, ...]) -> tuple[str, ...]:
+    """Return the sides of the arm that a combination of branches always gives."""
+    known = branches.together.get(taken)
+    names = []
+    for place, (each, branch) in enumerate(zip(branches.steps, taken, strict=True)):
+        if each.feature is not None and each.names:
+            names.append(each.names[branch])
+        elif each.feature is not None and known is not None and not _undecided(branches):
+            names.append(known[place])
+    return tuple(names)
+
+
+def _undecided(branches: Branches) -> list[tuple[str, str]]:
+    """Return the names of features that depend on the goal for some combination of branches."""
+    count = prod(each.step.branches for each in branches.steps)
+    if len(branches.together) == count:
+        return []
+    return [each.feature.names for each in branches.steps if each.feature and not each.names]
 
 
 def _without(found: InverseKinematics) -> Chapter:
@@ -329,7 +395,8 @@ def _without(found: InverseKinematics) -> Chapter:
             text = (
                 "The table has lengths or angles that are small, as in a calibrated arm. Without "
                 "them the nominal arm has a closed form; it is derived below, and each of its "
-                "solutions is improved on the true arm by Newton's method."
+                "solutions is improved on the true arm by Newton's method. Near singular poses one "
+                "may be missed."
             )
             blocks.append(Paragraph((text,)))
         case Method.ONE_JOINT:
@@ -396,7 +463,10 @@ def numbers_chapter(found: InverseKinematics, solved: Solved) -> Chapter:
         pairs = zip(robot.variables, answer.q, strict=True)
         values = [_value(style, x, variable in turning) for variable, x in pairs]
         rows.append((Rounded(str(k)), *values))
-    told = [_answer_note(found, k, a) for k, a in enumerate(solved.answers, start=1)]
+    branches = None
+    if found.form is not None and found.method is Method.CLOSED_FORM:
+        branches = branches_of(found.form, solved.values)
+    told = [_answer_note(branches, k, a) for k, a in enumerate(solved.answers, start=1)]
     notes: list[Text] = [note for note in told if note]
     worst = max(answer.error for answer in solved.answers)
     blocks.append(ParameterTable(header, tuple(rows), tuple(notes)))
@@ -411,14 +481,10 @@ def numbers_chapter(found: InverseKinematics, solved: Solved) -> Chapter:
     return Chapter("Numbers", tuple(blocks))
 
 
-def _answer_note(found: InverseKinematics, k: int, answer: Answer) -> Text:
+def _answer_note(branches: Branches | None, k: int, answer: Answer) -> Text:
     said: list[str] = []
-    if found.form is not None and found.method is Method.CLOSED_FORM and answer.branches:
-        names = found.form.branch_names
-        said += [
-            names[step.unknown][branch]
-            for step, branch in zip(found.form.branching, answer.branches, strict=True)
-        ]
+    if branches is not None and answer.branches:
+        said += branches.names(answer.branches, answer.q)
     if answer.free:
         free = " and ".join(v.name for v in answer.free)
         said.append(f"singular, {free} free")
@@ -451,12 +517,3 @@ def _formulas(blocks: Sequence[Block]) -> list[Node]:
                 if formula is not None:
                     found.append(formula)
     return found
-
-
-def _listed(items: Sequence[Node]) -> tuple[Inline, ...]:
-    told: list[Inline] = []
-    for position, item in enumerate(items):
-        if position:
-            told.append(" and " if position == len(items) - 1 else ", ")
-        told.append(item)
-    return tuple(told)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
-from sympy import Expr, Integer, Symbol
+from sympy import Add, Expr, Integer, Mul, Symbol
 
+from symdh.derivation.blocks import Inline
 from symdh.derivation.style import Style
+from symdh.kinematics.inverse.branches import Branches
 from symdh.kinematics.inverse.pool import Source
 from symdh.kinematics.inverse.ring import Element
 from symdh.kinematics.inverse.solution import ClosedForm
@@ -22,6 +25,7 @@ from symdh.notation.nodes import (
     Number,
     Power,
     Rounded,
+    Sum,
     Tuple,
 )
 from symdh.notation.writing import weight
@@ -38,11 +42,17 @@ class Writer:
     style : Style
         Of the robot whose lengths have letters.
     form : ClosedForm
+    branches : Branches
+        What the branches of the steps are called.
+    told : dict of Source to str
+        The title of the step in which entries were compared for the first time.
     """
 
-    def __init__(self, style: Style, form: ClosedForm) -> None:
+    def __init__(self, style: Style, form: ClosedForm, branches: Branches) -> None:
         self.style = style
         self.form = form
+        self.branches = branches
+        self.told: dict[Source, str] = {}
         self._ring = form.ring
         robot = form.arm.robot
         self._used = {s.name for s in (*robot.parameters, *robot.variables)}
@@ -56,6 +66,46 @@ class Writer:
     def element(self, element: Element) -> Node:
         """Write an element."""
         return self.expression(self._ring.expression(element))
+
+    def given_first(self, element: Element) -> Node:
+        """Write an element with what the goal gives in front: ``p_x^2 + p_y^2 - a_1^2``."""
+        make = self._ring.ring.from_dict
+        given: dict[tuple[int, ...], object] = {}
+        rest: dict[tuple[int, ...], object] = {}
+        for powers, coefficient in element.terms():
+            goal = any(power and self._ring.is_given(k) for k, power in enumerate(powers))
+            (given if goal else rest)[powers] = coefficient
+        parts = [part for part in (make(given), make(rest)) if part]
+        parts.sort(key=lambda part: all(coefficient < 0 for coefficient in part.values()))
+        terms = [term for part in parts for term in _terms(self.element(part))]
+        return self.element(element) if len(parts) < 2 else Sum(tuple(terms))
+
+    def nested(self, element: Element) -> Node:
+        """Write an element with common factors taken out: ``(r_13 c_1 + r_23 s_1) c_23 + ..``."""
+        expression = self._nested(element)
+        if expression == self._ring.expression(element):
+            return self.given_first(element)
+        return self.expression(expression)
+
+    def _nested(self, element: Element) -> Expr:
+        """Take out the letter that most terms share, and go on with both parts."""
+        counts = Counter(k for powers in element for k, power in enumerate(powers) if power)
+        goal = [k for k in counts if self._ring.is_given(k)]
+        for k in goal:
+            del counts[k]
+        if not counts or max(counts.values()) < 2:
+            return self._ring.expression(element)
+        lengths = self._ring.first_lengths
+        letter = max(counts, key=lambda k: (counts[k], k in lengths, k))
+        make = self._ring.ring.from_dict
+        inside, outside = {}, {}
+        for powers, coefficient in element.terms():
+            if powers[letter]:
+                inside[(*powers[:letter], powers[letter] - 1, *powers[letter + 1 :])] = coefficient
+            else:
+                outside[powers] = coefficient
+        factored = Mul(self._ring.letters[letter], self._nested(make(inside)))
+        return Add(factored, self._nested(make(outside)))
 
     def cosine(self, unknown: int) -> Expr:
         """Return the cosine of an angle."""
@@ -108,9 +158,24 @@ class Writer:
 
     def quotient(self, top: Expr, bottom: Expr) -> Node:
         """Write a quotient as one fraction whose denominator is positive in its first term."""
+        whole = top / bottom
+        if whole.as_numer_denom()[1] == 1:
+            return self.expression(whole)
         over, under = self.expression(top), self.expression(bottom)
         if isinstance(under, Negative):
             over, under = self.expression(-top), under.node
+        if isinstance(under, Number) and under.value == 1:
+            return over
+        if isinstance(over, Negative):
+            return Negative(Fraction(over.node, under))
+        return Fraction(over, under)
+
+    def quotient_of(self, top: Element, bottom: Element) -> Node:
+        """Write a quotient of two elements, what the goal gives in front."""
+        under = self.expression(self._ring.expression(bottom))
+        if isinstance(under, Negative):
+            top, under = -top, under.node
+        over = self.given_first(top)
         if isinstance(under, Number) and under.value == 1:
             return over
         if isinstance(over, Negative):
@@ -159,6 +224,16 @@ def _beside(names: Sequence[Node]) -> Node:
     return names[0] if len(names) == 1 else Juxtaposed(tuple(names))
 
 
+def _terms(node: Node) -> tuple[Node, ...]:
+    """Return the terms of a sum, its sign taken into the brackets."""
+    if isinstance(node, Negative):
+        return tuple(
+            term.node if isinstance(term, Negative) else Negative(term)
+            for term in _terms(node.node)
+        )
+    return node.terms if isinstance(node, Sum) else (node,)
+
+
 def place(entry: tuple[int, int]) -> Node:
     """Return the place of an entry, counted from 1."""
     return Tuple(tuple(Rounded(str(k + 1)) for k in entry))
@@ -167,3 +242,13 @@ def place(entry: tuple[int, int]) -> Node:
 def is_zero(node: Node) -> bool:
     """Say whether a node is the number zero."""
     return isinstance(node, Number) and node.value == 0
+
+
+def listed(items: Sequence[Node]) -> tuple[Inline, ...]:
+    """Return formulas as running text: a, b and c."""
+    told: list[Inline] = []
+    for position, item in enumerate(items):
+        if position:
+            told.append(" and " if position == len(items) - 1 else ", ")
+        told.append(item)
+    return tuple(told)

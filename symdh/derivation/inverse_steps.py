@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from sympy import Add, Expr, Integer, Symbol, atan2, cos, pi, sin, sqrt
 
@@ -15,8 +16,9 @@ from symdh.derivation.blocks import (
     Inline,
     Paragraph,
 )
-from symdh.derivation.inverse_names import Writer, is_zero, place
+from symdh.derivation.inverse_names import Writer, is_zero, listed, place
 from symdh.kinematics.inverse.pool import Combination, Equation, Source
+from symdh.kinematics.inverse.posture import Part
 from symdh.kinematics.inverse.ring import Element
 from symdh.kinematics.inverse.solution import ClosedForm, Rule, Step, Used
 from symdh.notation import nodes
@@ -24,13 +26,28 @@ from symdh.notation.nodes import Call, Generic, Negative, Node, Sum
 from symdh.notation.writing import weight
 from symdh.robot import JointType
 
+#: What is said of two values that the arm does not tell apart.
+_WITHOUT_NAMES = {
+    Rule.COSINE: "The first value is a positive angle, the second a negative one.",
+    Rule.SINE: "The first value is at most 90 degrees from zero, the second farther.",
+}
 #: A side of an equation that has more to read than this does not stand in front.
 _LONG = 7
+#: Nor one of several, which would push the others to the right.
+_LONG_AMONG_OTHERS = 5
+#: The column of the position in a matrix, from 0.
+_POSITION = 3
+#: The entry of a known part that has more to read than this is not written out.
+_TOO_LONG = 30
+#: The sine and the cosine of an angle that have no more to read than this are put in.
+_SHORT = 2
 
 
-def step_chapter(writer: Writer, number: int, step: Step) -> Chapter:
+def step_chapter(writer: Writer, step: Step) -> Chapter:
     """Return the chapter on one step."""
-    return Chapter(f"Step {number}: {_title(writer, step)}", tuple(_Telling(writer, step).blocks()))
+    title = _title(writer, step)
+    blocks = _Telling(writer, title, step).blocks()
+    return Chapter(f"{title[0].upper()}{title[1:]}", tuple(blocks))
 
 
 def _title(writer: Writer, step: Step) -> str:
@@ -50,10 +67,12 @@ def _title(writer: Writer, step: Step) -> str:
 class _Telling:
     """Tells one step."""
 
-    def __init__(self, writer: Writer, step: Step) -> None:
+    def __init__(self, writer: Writer, title: str, step: Step) -> None:
         self._writer = writer
+        self._title = title
         self._step = step
         self._new: list[tuple[Symbol, Element]] = []
+        self._written: set[tuple[Node, ...]] = set()
 
     def blocks(self) -> list[Block]:
         """Return all that is said of the step."""
@@ -97,6 +116,15 @@ class _Telling:
     def _read_off(self, source: Source, equations: Sequence[Equation]) -> list[Block]:
         if equations[0].parents:
             return self._combined(equations[0])
+        entries = [entry for equation in equations for entry in equation.source.entries]
+        before = {self._writer.told.get(equation.source, "") for equation in equations}
+        for equation in equations:
+            self._writer.told.setdefault(equation.source, self._title)
+        if len(before) == 1 and min(before) and not any(e.source.is_squared for e in equations):
+            return [
+                Paragraph(_compared_again(entries, min(before))),
+                self._shown(side for each in equations for side in each.sides),
+            ]
         blocks: list[Block] = [
             Paragraph(self._moved(source)),
             Display(self._writer.matrix_equation(source)),
@@ -110,9 +138,15 @@ class _Telling:
         for equation in squared:
             blocks.append(Paragraph(_compared(equation.source.entries)))
             blocks.append(self._shown(equation.sides))
+            self._remember(equation)
             blocks.append(Paragraph(("Squared and added, they give",)))
             blocks.append(self._as_equation(equation.element))
         return blocks
+
+    def _remember(self, equation: Equation) -> None:
+        """Entries that were squared and added have been compared one by one as well."""
+        for entry in equation.source.entries:
+            self._writer.told.setdefault(replace(equation.source, entries=(entry,)), self._title)
 
     def _moved(self, source: Source) -> tuple[Inline, ...]:
         writer = self._writer
@@ -124,7 +158,7 @@ class _Telling:
         if not names:
             return ("The matrix equation is taken as it stands:",)
         verb = "are" if len(names) > 1 else "is"
-        return (*_listed(names), f" {verb} moved to the side of ", goal, ":")
+        return (*listed(names), f" {verb} moved to the side of ", goal, ":")
 
     def _combined(self, equation: Equation) -> list[Block]:
         blocks: list[Block] = []
@@ -133,7 +167,7 @@ class _Telling:
         how = equation.combination or Combination.RATIO
         return [
             *blocks,
-            Paragraph((f"{how.value.capitalize()}:",)),
+            Paragraph((f"{how.value[0].upper()}{how.value[1:]}:",)),
             self._as_equation(equation.element),
         ]
 
@@ -146,15 +180,24 @@ class _Telling:
         """Return equations with the shorter side in front."""
         write = self._writer.element
         rows = []
-        for left, right in sides:
+        pairs = tuple(sides)
+        longest = _LONG if len(pairs) == 1 else _LONG_AMONG_OTHERS
+        for left, right in pairs:
             known, chain = write(left), write(right)
             front, behind = (known, chain) if weight(known) <= weight(chain) else (chain, known)
             if is_zero(front):
                 front, behind = behind, front
-            if weight(front) > _LONG:
+            if weight(front) > longest:
                 front, behind = write(left - left), write(left - right)
             rows.append(EntryStep(front, (behind,), None))
+            self._written.add((front, behind))
         return EntrySteps(tuple(rows))
+
+    def _stand_there(self, rows: Sequence[EntryStep]) -> bool:
+        """Say whether equations have been written in this step as they are."""
+        return all(
+            {(row.name, row.forms[0]), (row.forms[0], row.name)} & self._written for row in rows
+        )
 
     def _as_equation(self, element: Element) -> EntrySteps:
         """Return ``element = 0`` with what the goal gives on one side."""
@@ -162,39 +205,34 @@ class _Telling:
         given: dict[tuple[int, ...], object] = {}
         rest: dict[tuple[int, ...], object] = {}
         for powers, coefficient in element.terms():
-            goal = any(power and self._is_given(k) for k, power in enumerate(powers))
+            goal = any(power and ring.is_given(k) for k, power in enumerate(powers))
             (given if goal else rest)[powers] = coefficient
         left, right = ring.ring.from_dict(given), -ring.ring.from_dict(rest)
         if right and all(coefficient < 0 for coefficient in right.values()) and left:
             left, right = -left, -right
         return self._shown([(left, right)])
 
-    def _is_given(self, generator: int) -> bool:
-        ring = self._writer.form.ring
-        names = len(ring.goal_names)
-        return (
-            ring.first_goal <= generator < ring.first_goal + names or generator >= ring.first_name
-        )
-
     # ------------------------------------------------------------ how the unknown follows
 
     def _linear(self, coefficients: Sequence[Element]) -> tuple[Expr, Expr, Expr]:
-        a, b, c = (self._writer.short(element, self._new) for element in coefficients)
-        return a, b, c
+        """Return A, B, C with letters for what is long: A s + B c = -C, so -C gets the letter."""
+        a, b, c = coefficients
+        short = self._writer.short
+        return short(a, self._new), short(b, self._new), -short(-c, self._new)
 
     def _introduced(self) -> list[Block]:
         """Give what the new names stand for, once."""
         if not self._new:
             return []
         write = self._writer
-        rows = [EntryStep(write.expression(k), (write.element(e),), None) for k, e in self._new]
+        rows = [EntryStep(write.expression(k), (write.nested(e),), None) for k, e in self._new]
         self._new = []
-        return [Paragraph(("All of this is known:",)), EntrySteps(tuple(rows))]
+        return [Paragraph(("With letters for what is known,",)), EntrySteps(tuple(rows))]
 
     def _restated(self, equation: Node) -> list[Block]:
         """Give the new names, and the equation with them; nothing where it stands there."""
         told = self._introduced()
-        return [*told, Paragraph(("So",)), Display(equation)] if told else []
+        return [*told, Paragraph(("this is",)), Display(equation)] if told else []
 
     def _trigonometric(self) -> tuple[Expr, Expr]:
         unknown = self._step.unknown
@@ -212,17 +250,17 @@ class _Telling:
                 EntryStep(first, (write(atan2(-b, a)),), None),
                 EntryStep(self._writer.unknown(self._step.unknown, "2"), (second,), None),
             ),
-            self._free(a, b),
+            *self._free(a, b),
         ]
 
     def _arc(self) -> list[Block]:
         """A sine or a cosine is known."""
         a, b, c = self._step.coefficients
-        writer, ring = self._writer, self._writer.form.ring
+        writer = self._writer
         s, cosine = self._trigonometric()
         of_cosine = self._step.rule is Rule.COSINE
         known = cosine if of_cosine else s
-        value = writer.quotient(-ring.expression(c), ring.expression(b if of_cosine else a))
+        value = writer.quotient_of(-c, b if of_cosine else a)
         other = sqrt(1 - known**2)
         pairs = (
             [(other, known), (-other, known)] if of_cosine else [(known, other), (known, -other)]
@@ -243,47 +281,51 @@ class _Telling:
             *self._solution(*rows, lead=f"and the {function}, written with atan2, is"),
             Paragraph(
                 (
-                    *("Where ", shown, " is 1 or -1, both solutions are one"),
-                    *(self._stretched(), "; where it would be beyond, the goal is out of reach."),
+                    *("Where ", shown, " is ", writer.expression(Integer(1)), " or "),
+                    *(writer.expression(Integer(-1)), ", both solutions are one"),
+                    *(self._stretched(), "; beyond that the goal is out of reach."),
                 )
             ),
         ]
 
     def _stretched(self) -> str:
-        names = self._writer.form.branch_names.get(self._step.unknown, ("",))
-        return ": the arm is stretched out or folded" if "elbow" in names[0] else ""
+        branching = self._writer.branches.of(self._step.unknown)
+        feature = None if branching is None else branching.feature
+        bent = feature is not None and feature.part is Part.ELBOW
+        return ": the arm is stretched out or folded" if bent else ""
 
     def _sine_cosine(self) -> list[Block]:
         a, b, c = self._linear(self._step.coefficients)
+        known = -c
         writer = self._writer
         s, cosine = self._trigonometric()
         rho, psi = writer.letter("rho"), writer.letter("psi")
         write = writer.expression
         unknown = writer.unknown(self._step.unknown)
         inner = Sum((unknown, Negative(write(psi))))
-        root = sqrt(rho**2 - c**2)
+        root = sqrt(rho**2 - known**2)
         rows = [
             EntryStep(
                 writer.unknown(self._step.unknown, str(k)),
-                (_plus(write(psi), write(atan2(root, -c, evaluate=False)), sign),),
+                (_plus(write(psi), write(atan2(root, known, evaluate=False)), sign),),
                 None,
             )
             for k, sign in ((1, 1), (2, -1))
         ]
         return [
-            *self._restated(_equation(write(a * s + b * cosine), write(-c))),
+            *self._restated(_equation(write(a * s + b * cosine), write(known))),
             *self._polar(rho, psi, a, b),
             Paragraph(("the left side is one cosine:",)),
-            Display(_equation(nodes.Product((write(rho), Call("cos", (inner,)))), write(-c))),
+            Display(_equation(nodes.Product((write(rho), Call("cos", (inner,)))), write(known))),
             *self._solution(*rows),
             Paragraph(
                 (
-                    *("Where ", write(rho**2), " is less than ", write(c**2)),
+                    *("Where ", write(rho**2), " is less than ", write(known**2)),
                     *(", the goal is out of reach; where they are equal, both solutions are one"),
                     *(self._stretched(), "."),
                 )
             ),
-            self._free(a, b),
+            *self._free(a, b),
         ]
 
     def _polar(self, rho: Symbol, psi: Symbol, y: Expr, x: Expr) -> list[Block]:
@@ -306,12 +348,43 @@ class _Telling:
         ]
 
     def _pair(self) -> list[Block]:
-        first = self._linear(self._step.coefficients[:3])
-        second = self._linear(self._step.coefficients[3:])
+        apart = self._apart()
+        if apart is not None:
+            return self._both_known(*apart)
+        first, second = self._step.coefficients[:3], self._step.coefficients[3:]
         rotated = _as_rotation(first, second)
         if rotated is not None:
-            return self._rotation(*rotated)
-        return self._cramer(first, second)
+            return self._rotation(*(self._writer.short(part, self._new) for part in rotated))
+        return self._cramer(self._linear(first), self._linear(second))
+
+    def _apart(self) -> tuple[Element, Element] | None:
+        """Return the sine and the cosine where each equation gives one of them as it stands."""
+        a_1, b_1, c_1, a_2, b_2, c_2 = self._step.coefficients
+        one = self._writer.form.ring.one
+        if not b_1 and not a_2 and a_1 in (one, -one) and b_2 in (one, -one):
+            return -a_1 * c_1, -b_2 * c_2
+        if not a_1 and not b_2 and a_2 in (one, -one) and b_1 in (one, -one):
+            return -a_2 * c_2, -b_1 * c_1
+        return None
+
+    def _both_known(self, sine: Element, cosine: Element) -> list[Block]:
+        """Give an angle whose sine and cosine stand there."""
+        writer = self._writer
+        s, c = self._trigonometric()
+        write = writer.expression
+        values = writer.element(sine), writer.element(cosine)
+        rows = [
+            EntryStep(write(name), (value,), None)
+            for name, value in zip((s, c), values, strict=True)
+        ]
+        angle = [write(atan2(s, c, evaluate=False))]
+        if all(weight(value) <= _SHORT for value in values):
+            angle.append(Call("atan2", values))
+        blocks: list[Block] = []
+        if not self._stand_there(rows):
+            blocks = [Paragraph(("So",)), EntrySteps(tuple(rows))]
+        unknown = writer.unknown(self._step.unknown)
+        return [*blocks, *self._solution(EntryStep(unknown, tuple(angle), None))]
 
     def _rotation(self, k_1: Expr, k_2: Expr, x: Expr, y: Expr) -> list[Block]:
         """Solve ``x = k_1 c - k_2 s`` and ``y = k_1 s + k_2 c`` by one angle psi."""
@@ -330,10 +403,11 @@ class _Telling:
             EntryStep(write(y), (nodes.Product((write(rho), Call("cos", (inner,)))),), None),
         )
         difference = _plus(write(psi), write(atan2(x, y, evaluate=False)), -1)
+        blocks = self._introduced()
+        if not self._stand_there(rows):
+            blocks += [Paragraph(("these are" if blocks else "So",)), EntrySteps(rows)]
         return [
-            *self._introduced(),
-            Paragraph(("So",)),
-            EntrySteps(rows),
+            *blocks,
             *self._polar(rho, psi, k_1, k_2),
             Paragraph(("these are",)),
             EntrySteps(turned),
@@ -361,10 +435,12 @@ class _Telling:
             EntryStep(write(s), (writer.quotient(*sine),), None),
             EntryStep(write(c), (writer.quotient(*cosine),), None),
         )
-        blocks: list[Block] = self._introduced()
+        told = self._introduced()
+        blocks: list[Block] = [*told]
         apart = any((b.is_zero and p.is_zero) for b, p in ((b_1, a_2), (b_2, a_1)))
         if not apart:
-            lead = "So" if not self._is_told else "Of the same two equations all else is known now:"
+            again = "Of the same two equations all else is known now:"
+            lead = again if self._is_told else "these are" if told else "So"
             blocks += [Paragraph((lead,)), EntrySteps(rows)]
         blocks += [
             Paragraph(("So" if apart else "two linear equations, with the solution",)),
@@ -373,30 +449,24 @@ class _Telling:
         ]
         if determinant.could_extract_minus_sign():
             determinant = -determinant
+        if determinant.is_Pow:
+            determinant = determinant.base
         if determinant.atoms(cos, sin):
             shown = write(determinant)
             what: Inline = shown if weight(shown) <= _LONG else "the determinant of the two"
-            blocks.append(
-                Paragraph(
-                    (
-                        *("Where ", what, " is zero this pair says nothing about "),
-                        *(
-                            unknown,
-                            "; another pair of entries does, or it is free and ",
-                        ),
-                        self._meaning(),
-                    )
-                )
-            )
+            where: tuple[Inline, ...] = ("Where ", what, " is zero, this pair says nothing about ")
+            rest: tuple[Inline, ...] = (unknown, " and it is free; ", self._meaning())
+            if self._step.alternatives:
+                rest = (unknown, "; there another pair of entries serves.")
+            blocks.append(Paragraph((*where, *rest)))
         return blocks
 
     def _slide(self) -> list[Block]:
         writer, ring = self._writer, self._writer.form.ring
         a, c = self._step.coefficients
-        value = writer.quotient(-ring.expression(c), ring.expression(a))
-        row = EntryStep(writer.unknown(self._step.unknown), (value,), None)
+        row = EntryStep(writer.unknown(self._step.unknown), (writer.quotient_of(-c, a),), None)
         blocks = self._solution(row)
-        if any(k not in ring.first_lengths for m in a for k, power in enumerate(m) if power):
+        if not ring.is_constant(a):
             shown = writer.element(a)
             blocks.append(Paragraph(("Where ", shown, " is zero this says nothing.")))
         return blocks
@@ -406,14 +476,16 @@ class _Telling:
         a, b, c = self._linear(self._step.coefficients)
         q = writer.form.ring.unknown_expression(self._step.unknown)
         write = writer.expression
-        root = sqrt(b**2 - 4 * a * c)
+        root = write(sqrt(b**2 - 4 * a * c))
+        before = () if b.is_zero else (write(-b),)
+        tops = [(*before, root), (*before, Negative(root))]
         rows = [
             EntryStep(
                 writer.unknown(self._step.unknown, str(k)),
-                (write((-b + sign * root) / (2 * a)),),
+                (nodes.Fraction(Sum(top) if before else top[0], write(2 * a)),),
                 None,
             )
-            for k, sign in ((1, 1), (2, -1))
+            for k, top in enumerate(tops, start=1)
         ]
         return [
             *self._introduced(),
@@ -430,14 +502,15 @@ class _Telling:
         assert x is not None
         a_1, b_1, c_1 = self._linear(step.coefficients[:3])
         a_2, b_2, c_2 = self._linear(step.coefficients[3:])
-        s, c = writer.sine(x), writer.cosine(x)
-        rows = self._rows(((a_1, b_1, c_1), (a_2, b_2, c_2)), s, c)
+        rows = self._rows(((a_1, b_1, c_1), (a_2, b_2, c_2)), writer.sine(x), writer.cosine(x))
         told = self._introduced()
         if told:
             told[0] = Paragraph(("In these, ", writer.unknown(y), " is the only unknown:"))
         if step.scales:
             l_1, l_2 = (writer.form.ring.expression(scale) for scale in step.scales)
-            left = write((c_1 / l_1) ** 2 + (c_2 / l_2) ** 2)
+            left: Node = Sum(
+                tuple(_squared(writer.quotient(c, s)) for c, s in ((c_1, l_1), (c_2, l_2)))
+            )
             p, q = (
                 self._divided(element, a, l_1)
                 for element, a in zip(step.coefficients, (a_1, b_1), strict=False)
@@ -508,7 +581,7 @@ class _Telling:
             terms.append(node if sign > 0 else Negative(node))
         terms.sort(key=lambda node: isinstance(node, Negative))
         row = EntryStep(writer.unknown(self._step.unknown), (Sum(tuple(terms)),), None)
-        return [EntrySteps((row,))]
+        return [Paragraph(("Both parts are known:",)), EntrySteps((row,))]
 
     def _names(self) -> list[Block]:
         """Give the entries of a part whose pose is known now."""
@@ -522,16 +595,23 @@ class _Telling:
         source = Source(i, j, (), base=base if base is not None else (0, n))
         shown = _printed(writer.form)
         rows = [
-            EntryStep(writer.expression(writer.form.ring.letters[k]), (writer.element(e),), None)
+            EntryStep(writer.expression(writer.form.ring.letters[k]), (writer.nested(e),), None)
             for k, e in step.definitions
             if k in shown
         ]
         name = writer.part_name(step.part)
         equation = writer.matrix_equation(source)
         assert isinstance(equation, nodes.Equation)
-        return [
+        moved: list[Block] = [
             Paragraph(("The joints found so far are taken to the side of what is known,",)),
             Display(nodes.Equation((name, *equation.sides))),
+        ]
+        if any(weight(form) > _TOO_LONG for row in rows for form in row.forms):
+            entries = listed([row.name for row in rows])
+            text = (" are known numbers, row times column; written out they would fill the page.",)
+            return [*moved, Paragraph(("of which ", *entries, *text))]
+        return [
+            *moved,
             Paragraph(("and the entries that are needed get names:",)),
             EntrySteps(tuple(rows)),
         ]
@@ -543,23 +623,40 @@ class _Telling:
 
     def _branches(self) -> list[Block]:
         """Name the branches."""
-        step = self._step
-        names = self._writer.form.branch_names.get(step.unknown)
-        if step.branches < 2 or names is None or step.rule is Rule.HALF_ANGLE:
+        branching = self._writer.branches.of(self._step.unknown)
+        if branching is None:
             return []
-        said = ", ".join(f"({k}) {name}" for k, name in enumerate(names, start=1))
-        return [Paragraph((f"The two values: {said}.",))]
+        if branching.feature is None:
+            text = _WITHOUT_NAMES.get(self._step.rule)
+            return [Paragraph((text,))] if text else []
+        first, second = branching.feature.names
+        if branching.names:
+            text = f"The two values: (1) {branching.names[0]}, (2) {branching.names[1]}. "
+        else:
+            text = f"One of the two values gives {first}, the other {second}; which is which "
+            text += "depends on the steps before. " if self._settled else "depends on the goal. "
+        text += branching.feature.meaning
+        if self._writer.branches.assumed:
+            text += " Lengths are taken as positive."
+        return [Paragraph((text,))]
 
-    def _free(self, a: Expr, b: Expr) -> Paragraph:
-        write = self._writer.expression
+    @property
+    def _settled(self) -> bool:
+        """Whether the names of the branches of all steps together do not depend on the goal."""
+        return len(self._writer.branches.together) == self._writer.form.most_solutions
+
+    def _free(self, a: Expr, b: Expr) -> list[Block]:
+        """Say when the angle is free, unless that depends on the arm's lengths alone."""
+        ring, write = self._writer.form.ring, self._writer.expression
+        if all(ring.is_constant(element) for element in self._step.coefficients[:2]):
+            return []
         a, b = (-x if x.could_extract_minus_sign() else x for x in (a, b))
         unknown = self._writer.unknown(self._step.unknown)
-        return Paragraph(
-            (
-                *("Where ", write(a), " and ", write(b), " are both zero, ", unknown),
-                *(" is free; ", self._meaning()),
-            )
+        text: tuple[Inline, ...] = (
+            *("Where ", write(a), " and ", write(b), " are both zero, ", unknown),
+            *(" is free; ", self._meaning()),
         )
+        return [Paragraph(text)]
 
     def _meaning(self) -> str:
         """Say what a free angle means for the arm."""
@@ -574,10 +671,20 @@ class _Telling:
                 "then the point that the other joints place lies on the axis of this one, turning "
                 "it changes nothing, and it keeps the value that it has."
             )
-        if rows <= set(moving[-3:]) and form.task.with_orientation and len(moving) >= 3:
+        branching = self._writer.branches.of(unknown)
+        feature = None if branching is None else branching.feature
+        in_hand = rows <= set(moving[-3:]) and len(moving) >= 3
+        if form.task.with_orientation and (in_hand or (feature and feature.part is Part.WRIST)):
             return (
                 "then two axes of the hand are in line, only the sum or the difference of their "
                 "angles is determined, and this one keeps the value that it has."
+            )
+        sources = [used.equation.source for used in self._step.equations]
+        columns = {column for source in sources for _, column in source.entries}
+        if columns == {_POSITION} and all(source.entries for source in sources):
+            return (
+                "then turning it does not move the point that is compared, and it keeps the value "
+                "that it has."
             )
         return "it keeps the value that it has."
 
@@ -620,36 +727,40 @@ def _by_matrix(equations: Iterable[Equation]) -> list[tuple[Source, list[Equatio
 
 def _compared(entries: Sequence[tuple[int, int]]) -> tuple[Inline, ...]:
     """Say which entries are compared."""
-    places = _listed([place(entry) for entry in entries])
+    places = listed([place(entry) for entry in entries])
     return ("The entries at ", *places, " on both sides are equal:")
 
 
-def _listed(items: Sequence[Node]) -> tuple[Inline, ...]:
-    told: list[Inline] = []
-    for position, item in enumerate(items):
-        if position:
-            told.append(" and " if position == len(items) - 1 else ", ")
-        told.append(item)
-    return tuple(told)
+def _compared_again(entries: Sequence[tuple[int, int]], title: str) -> tuple[Inline, ...]:
+    """Say which entries are taken that an earlier step has compared."""
+    return (f"As compared for {title}, at ", *listed([place(entry) for entry in entries]), ":")
 
 
 def _as_rotation(
-    first: tuple[Expr, Expr, Expr], second: tuple[Expr, Expr, Expr]
-) -> tuple[Expr, Expr, Expr, Expr] | None:
-    """Read two equations as ``x = k_1 c - k_2 s`` and ``y = k_1 s + k_2 c``, if they are that."""
+    first: Sequence[Element], second: Sequence[Element]
+) -> tuple[Element, Element, Element, Element] | None:
+    """Read two equations as ``x = k_1 c - k_2 s`` and ``y = k_1 s + k_2 c``, if they are that.
+
+    Of the ways to do so the one with the fewest minus signs is taken.
+    """
     found = []
     for one, other in ((first, second), (second, first)):
         for sign in (1, -1):
             for turn in (1, -1):
                 a_1, b_1, c_1 = (sign * part for part in one)
                 a_2, b_2, c_2 = (turn * part for part in other)
-                if b_1 == a_2 and a_1 == -b_2 and not (b_1.is_zero or b_2.is_zero):
+                if b_1 and b_2 and b_1 == a_2 and a_1 == -b_2:
                     found.append((b_1, b_2, -c_1, -c_2))
     return min(found, key=_minus_signs, default=None)
 
 
-def _minus_signs(expressions: tuple[Expr, ...]) -> int:
-    return sum(1 for expression in expressions if expression.could_extract_minus_sign())
+def _minus_signs(elements: Sequence[Element]) -> float:
+    """Count the elements that have more minus signs than plus signs, and those that have both."""
+    count = 0.0
+    for element in elements:
+        minus = sum(1 for coefficient in element.values() if coefficient < 0)
+        count += 1 if 2 * minus > len(element) else minus / 100
+    return count
 
 
 def _cramers_rule(
@@ -666,6 +777,11 @@ def _cramers_rule(
 
 def _equation(left: Node, right: Node) -> nodes.Equation:
     return nodes.Equation((left, right))
+
+
+def _squared(node: Node) -> Node:
+    """Return the square of a node, whatever its sign."""
+    return nodes.Power(node.node if isinstance(node, Negative) else node, Integer(2))
 
 
 def _plus(first: Node, second: Node, sign: int) -> Node:

@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 import re
-from contextlib import contextmanager
 from math import radians
-from threading import Timer
 from typing import TYPE_CHECKING
 
 import click
 
-from symdh.cli import arguments, console, files, options, tables
+from symdh.cli import arguments, console, files, options, patience, tables
 from symdh.errors import DerivationError, UnsupportedError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Mapping
 
     from sympy import Expr, Symbol
 
     from symdh.derivation.inverse import Solved
     from symdh.kinematics.inverse.inverse import InverseKinematics
-    from symdh.robot import Robot
 
-#: Seconds after which a search says that it is at work.
-_PATIENCE = 2.0
+#: Formats that go to a file of their own unless the user says otherwise.
+_FILES = {"html": "_ik.html", "pdf": "_ik.pdf"}
 
 
 @click.command(
@@ -54,13 +51,8 @@ _PATIENCE = 2.0
     metavar="NUMBERS",
     help="Solve for a pose: 12 or 16 numbers by rows, or the coordinates of the task.",
 )
-@click.option(
-    "--set",
-    "settings",
-    metavar="NAME=VALUE",
-    multiple=True,
-    help="Value of a symbol. With all joints set and no --pose, solves for the pose they give. "
-    "Repeatable.",
+@options.set_option(
+    "Value of a symbol. With all joints set and no --pose, solves for the pose they give."
 )
 @click.option(
     "--near",
@@ -84,15 +76,18 @@ _PATIENCE = 2.0
     metavar="SECONDS",
     help="Stop searching for a closed form after this CPU time.",
 )
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(["text", "latex", "json"]),
-    default="text",
-    show_default=True,
-    help="Unicode to read, a LaTeX document, or JSON for a program.",
+@options.format_option(
+    "text",
+    "latex",
+    "html",
+    "pdf",
+    "json",
+    what="Unicode to read, the handout as LaTeX, web page or PDF, or JSON for a program.",
 )
-@options.file_option("standard output")
+@options.notation_option
+@options.paper_option
+@options.file_option("standard output; NAME_ik.html and NAME_ik.pdf for these two formats")
+@options.templates_option
 @options.force_option
 def ik(
     table: str,
@@ -104,6 +99,8 @@ def ik(
     trials: int | None,
     time_limit: float,
     form: str,
+    notation: str,
+    paper: str,
     output: str | None,
     force: bool,
 ) -> None:
@@ -119,38 +116,19 @@ def ik(
 
     robot = tables.read_robot(table)
     values = arguments.assignment(robot, settings)
-    locked = tuple(_joint(robot, name) for name in locks)
-    with _said_if_slow(f"searching for the inverse kinematics of {robot.name} ..."):
+    locked = tuple(arguments.joint(robot, name) for name in locks)
+    with patience.telling(f"searching for the inverse kinematics of {robot.name}"):
         found = inverse_kinematics(robot, wanted, locked, time_limit)
     if trials is not None:
         console.print_result(_checked(found, trials, values))
         return
     solved = _solved(found, pose, values, arguments.assignment(robot, seeds))
-    files.save(output or "-", _text(found, solved, form).encode(), force=force)
+    if output is None:
+        from symdh.codegen.names import file_stem
 
-
-@contextmanager
-def _said_if_slow(text: str) -> Iterator[None]:
-    """Print a note when what is done takes longer than anybody waits without a word."""
-    timer = Timer(_PATIENCE, console.note, (text,))
-    timer.daemon = True
-    timer.start()
-    try:
-        yield
-    finally:
-        timer.cancel()
-
-
-def _joint(robot: Robot, name: str) -> Symbol:
-    from sympy import Symbol
-
-    from symdh.table.names import canonical_name
-
-    variable = Symbol(canonical_name(arguments.as_utf8(name).strip()), real=True)
-    if variable not in robot.variables:
-        known = ", ".join(each.name for each in robot.variables)
-        raise UnsupportedError(f"{name} is no joint variable of {robot.name}; these are: {known}")
-    return variable
+        output = f"{file_stem(robot.name)}{_FILES[form]}" if form in _FILES else "-"
+    content = _content(found, solved, form, notation, paper)
+    files.save(output, content, force=force)
 
 
 def _solved(
@@ -182,7 +160,7 @@ def _solved(
     if seeds:
         known = {**robot.values, **values, **seeds}
         seed = [float(known.get(variable, 0)) for variable in robot.variables]
-    return Solved(goal, found.solver(values).solve(goal, seed))
+    return Solved(goal, found.solver(values).solve(goal, seed), values)
 
 
 def _numbers(text: str) -> list[float]:
@@ -204,13 +182,8 @@ def _checked(found: InverseKinematics, trials: int, values: Mapping[Symbol, Expr
     from symdh.kinematics.inverse.check import tried
     from symdh.kinematics.inverse.inverse import Method
 
-    step = max(1, trials // 5)
-
-    def progress(done: int) -> None:
-        if done % step == 0 and done < trials:
-            console.note(f"{done} of {trials} poses")
-
-    result = tried(found, trials, values, progress)
+    with patience.telling(f"solving for {trials} poses"):
+        result = tried(found, trials, values)
     counts = ", ".join(f"{n} at {times}" for n, times in sorted(result.counts.items()))
     told = (
         f"method: {found.method.value}\n"
@@ -224,22 +197,35 @@ def _checked(found: InverseKinematics, trials: int, values: Mapping[Symbol, Expr
     return told
 
 
-def _text(found: InverseKinematics, solved: Solved | None, form: str) -> str:
+def _content(
+    found: InverseKinematics, solved: Solved | None, form: str, notation: str, paper: str
+) -> bytes:
+    """Return the derivation, and the solutions for a pose, in a format."""
     if form == "json":
         from symdh.render.inverse_json import inverse_json
 
-        goal = solved.goal if solved else None
-        return inverse_json(found, goal, solved.answers if solved else None) + "\n"
+        return f"{inverse_json(found, solved)}\n".encode()
     from symdh.derivation.inverse import inverse_document, numbers_chapter
 
+    if form == "text":
+        from symdh.render.terminal import render_chapters
+
+        if solved is None:
+            chapters = inverse_document(found, naming=notation).chapters
+        else:
+            chapters = (numbers_chapter(found, solved),)
+        return f"{render_chapters(chapters, width=console.width())}\n".encode()
+    document = inverse_document(found, solved, notation)
+    if form == "html":
+        from symdh.render.page.page import render_page
+
+        return render_page(document, found.robot).encode()
+    from symdh.render.latex import render_latex
+
+    tex = render_latex(document, paper=paper)
     if form == "latex":
-        from symdh.render.latex import render_latex
+        return tex.encode()
+    from symdh.render.pdf import compile_pdf
 
-        return render_latex(inverse_document(found, solved))
-    from symdh.render.terminal import render_chapters
-
-    if solved is None:
-        chapters = inverse_document(found).chapters
-    else:
-        chapters = (numbers_chapter(found, solved),)
-    return render_chapters(chapters, width=console.width()) + "\n"
+    with patience.telling("typesetting"):
+        return compile_pdf(tex)

@@ -182,8 +182,9 @@ class Evaluator:
         for option in (step.coefficients, *step.alternatives):
             size = self._size(option[0]) + self._size(option[1])
             h = hypot(self._value(option[0], trial), self._value(option[1], trial))
-            if h / size > best_score:
-                best, best_score = option, h / size
+            score = h / size if size else 0.0
+            if score > best_score:
+                best, best_score = option, score
             if best_score > _GOOD:
                 break
         self.doubtful |= best_score < _DOUBTFUL
@@ -218,7 +219,8 @@ class Evaluator:
             a_1, b_1, c_1, a_2, b_2, c_2 = (self._value(element, trial) for element in option)
             sizes = [self._size(element) for element in option]
             determinant = a_1 * b_2 - a_2 * b_1
-            score = abs(determinant) / ((sizes[0] + sizes[1]) * (sizes[3] + sizes[4]))
+            size = (sizes[0] + sizes[1]) * (sizes[3] + sizes[4])
+            score = abs(determinant) / size if size else 0.0
             if score > best_score:
                 sine, cosine = b_1 * c_2 - b_2 * c_1, a_2 * c_1 - a_1 * c_2
                 best, best_score = atan2(sine / determinant, cosine / determinant), score
@@ -233,7 +235,8 @@ class Evaluator:
         best, best_score = 0.0, 0.0
         for option in (step.coefficients, *step.alternatives):
             a, c = (self._value(element, trial) for element in option)
-            score = abs(a) / self._size(option[0])
+            size = self._size(option[0])
+            score = abs(a) / size if size else 0.0
             if score > best_score:
                 best, best_score = -c / a, score
             if score > _GOOD:

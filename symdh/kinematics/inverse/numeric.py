@@ -83,7 +83,8 @@ class Solver:
         for proposal in self._evaluator.proposals(pose, start):
             self._judged(answers, proposal, pose)
         if not answers:
-            self._rescue(answers, pose, start, self._evaluator.doubtful)
+            doubtful = self._inexact or self._evaluator.doubtful
+            self._rescue(answers, pose, start, doubtful)
         return self.judge.in_order(answers, seed)
 
     def _judged(self, answers: list[Answer], proposal: Proposal, goal: Goal) -> None:

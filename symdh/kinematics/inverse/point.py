@@ -77,6 +77,7 @@ class Point:
         return product
 
     def _evaluate(self, element: Element) -> int:
+        self._ring.clock.check()
         terms = (self.term(powers, coefficient) for powers, coefficient in element.terms())
         return sum(terms) % self.prime
 

@@ -55,9 +55,9 @@ class Source:
 class Combination(Enum):
     """How one equation was made of two."""
 
-    RATIO = "combined, their common factor drops out"
-    PROJECTION = "the first multiplied by the cosine, the second by the sine, and both added"
-    DIFFERENCE = "combined, the angle that stands in both in the same way drops out"
+    RATIO = "one is divided by the other, and their common factor drops out"
+    PROJECTION = "each is multiplied by the known sine or cosine in it, and both are added"
+    DIFFERENCE = "they are combined so that the angle that stands in both drops out"
 
 
 @dataclass(frozen=True, slots=True)

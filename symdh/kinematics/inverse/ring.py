@@ -18,6 +18,7 @@ from sympy.polys.rings import PolyRing
 
 from symdh.errors import UnsupportedError
 from symdh.kinematics.inverse.arm import InverseArm
+from symdh.kinematics.inverse.clock import Clock
 from symdh.motion.turn import IDENTITY, Turn
 from symdh.motion.words import split_quarters
 from symdh.robot import Axis, Motion, MotionKind
@@ -77,10 +78,13 @@ class InverseRing:
         The rows of prismatic joints; their generators follow those of the forms.
     constants : tuple of Expr
         Constant angles that are no multiples of 90 degrees.
+    clock : Clock
+        Looked at whenever a vector is turned, or an element reduced or evaluated.
     """
 
-    def __init__(self, arm: InverseArm) -> None:
+    def __init__(self, arm: InverseArm, clock: Clock | None = None) -> None:
         self.arm = arm
+        self.clock = clock or Clock()
         self._rows = {arm.robot.joints[i - 1].variable: i for i in arm.moving}
         self.tokens, self.turns = self._tokens()
         self.forms = self._forms()
@@ -121,6 +125,16 @@ class InverseRing:
     def first_lengths(self) -> range:
         """The generators of lengths and of constant angles: numbers of the table."""
         return range(self.first_goal + len(self.goal_names), self.first_name)
+
+    def is_constant(self, element: Element) -> bool:
+        """Say whether an element is made of numbers of the table alone."""
+        lengths = self.first_lengths
+        return all(k in lengths for powers in element for k, power in enumerate(powers) if power)
+
+    def is_given(self, generator: int) -> bool:
+        """Say whether a generator is an entry of the goal, or the name of a known part."""
+        last = self.first_goal + len(self.goal_names)
+        return self.first_goal <= generator < last or generator >= self.first_name
 
     def goal(self, name: str) -> Element:
         """Return an entry of the goal: a name in `goal_names`."""
@@ -168,6 +182,7 @@ class InverseRing:
 
     def reduced(self, element: Element) -> Element:
         """Return an element with every sine to the first power at most."""
+        self.clock.check()
         sines = {k for powers in element for k in self._sines if powers[k] > 1}
         for k in sorted(sines):
             element = self._reduced_in(element, k)
@@ -205,11 +220,7 @@ class InverseRing:
 
     def inverse_product(self, i: int, j: int) -> Pose:
         """Return (A_{i+1} .. A_j)^-1."""
-        tokens = [
-            Token(t.kind, t.axis, tuple((row, -s) for row, s in t.form), -t.amount)
-            for t in reversed(self._slice(i, j))
-        ]
-        rotation, position = self._carry(tokens)
+        rotation, position = self._carry(self._inverse_slice(i, j))
         back = self.turns[j]
         return Pose(
             _rows_by(back, _columns_by(rotation, self.turns[i])), _rotated_back(back, position)
@@ -287,6 +298,7 @@ class InverseRing:
     def _rotate(
         self, axis: Axis, pair: tuple[Element, Element], vector: list[Element]
     ) -> list[Element]:
+        self.clock.check()
         first, second = (axis + 1) % 3, (axis + 2) % 3
         c, s = pair
         x, y = vector[first], vector[second]
@@ -324,6 +336,12 @@ class InverseRing:
 
     def _slice(self, i: int, j: int) -> list[Token]:
         return [token for row in self.tokens[i:j] for token in row]
+
+    def _inverse_slice(self, i: int, j: int) -> list[Token]:
+        return [
+            Token(t.kind, t.axis, tuple((row, -s) for row, s in t.form), -t.amount)
+            for t in reversed(self._slice(i, j))
+        ]
 
     def _tokens(self) -> tuple[list[list[Token]], list[Turn]]:
         """Carry right angles through the chain; return what is left and the turn at each frame."""
@@ -390,10 +408,12 @@ class InverseRing:
         n = self.arm.robot.n
         for i in range(n):
             for j in range(i + 1, n + 1):
-                tokens = self._slice(i, j)
-                amounts = [amount for _, _, amount in _turnings(tokens)]
-                amounts += [a for _, stations in _runs(tokens) for _, a, _ in stations]
-                found |= {_without_sign(a)[0] for a in amounts if _is_opaque(a)}
+                self.clock.check()
+                # The sums within a parallel run are taken from its other end in an inverse.
+                for tokens in (self._slice(i, j), self._inverse_slice(i, j)):
+                    amounts = [amount for _, _, amount in _turnings(tokens)]
+                    amounts += [a for _, stations in _runs(tokens) for _, a, _ in stations]
+                    found |= {_without_sign(a)[0] for a in amounts if _is_opaque(a)}
         return tuple(sorted(found, key=default_sort_key))
 
     def _part_names(self) -> list[str]:

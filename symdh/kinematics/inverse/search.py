@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from time import process_time
 
 from sympy import Symbol
 
 from symdh.errors import UnsupportedError
 from symdh.kinematics.inverse.arm import prepare
+from symdh.kinematics.inverse.clock import Clock, OutOfTimeError
 from symdh.kinematics.inverse.point import Point
 from symdh.kinematics.inverse.pool import Equation, Pool
 from symdh.kinematics.inverse.ring import Element, InverseRing
@@ -67,23 +67,32 @@ def closed_form(
         task = inverse_task(robot, freedoms, task)
     if freedoms > 6:
         raise UnsupportedError(f"{robot.name} has {freedoms} joints that move; six can be solved")
+    clock = Clock(seconds)
     arm = prepare(robot, held, whole_pose=task.whole_pose)
-    ring = InverseRing(arm)
-    pool = Pool(ring, task.allowed(ring.goal_position_names))
-    state = State(pool, (Point(ring, 1), Point(ring, 2)))
-    goals = {ring.unknown_of(row) for row in arm.moving}
-    timed_out = not _run(state, goals, process_time() + seconds)
+    goals: set[int] = set()
+    state: State | None = None
+    try:
+        ring = InverseRing(arm, clock)
+        goals = {ring.unknown_of(row) for row in arm.moving}
+        pool = Pool(ring, task.allowed(ring.goal_position_names))
+        state = State(pool, (Point(ring, 1), Point(ring, 2)))
+        _run(state, goals, clock)
+    except OutOfTimeError:
+        steps = tuple(state.steps) if state else ()
+        missing = goals - state.known if state else goals
+        return Tried(steps, tuple(sorted(missing)), timed_out=True)
+    finally:
+        clock.stop()
     if goals <= state.known:
         return ClosedForm(arm, task, ring, structure(robot), _needed(ring, state.steps, goals))
-    return Tried(tuple(state.steps), tuple(sorted(goals - state.known)), timed_out)
+    return Tried(tuple(state.steps), tuple(sorted(goals - state.known)))
 
 
-def _run(state: State, goals: set[int], deadline: float) -> bool:
-    """Take steps until all is known or nothing goes on; say whether there was time for it."""
+def _run(state: State, goals: set[int], clock: Clock) -> None:
+    """Take steps until all is known or nothing goes on."""
     squared_at: set[int] | None = None
     while not goals <= state.known:
-        if process_time() > deadline:
-            return False
+        clock.check()
         state.refresh()
         expand_known(state)
         add_ratios(state)
@@ -104,12 +113,11 @@ def _run(state: State, goals: set[int], deadline: float) -> bool:
             before = len(state.pool.equations)
             steps = eliminate(state)
             if not steps and before == len(state.pool.equations):
-                return True
+                return
             for step in steps:
                 state.take(step)
         take_sums(state)
         name_part(state)
-    return True
 
 
 def _needed(ring: InverseRing, steps: list[Step], goals: set[int]) -> tuple[Step, ...]:

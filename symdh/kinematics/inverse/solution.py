@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
@@ -12,7 +11,7 @@ from symdh.kinematics.inverse.arm import InverseArm
 from symdh.kinematics.inverse.pool import Equation
 from symdh.kinematics.inverse.ring import Element, InverseRing
 from symdh.kinematics.inverse.structure import Structure
-from symdh.kinematics.inverse.task import InverseTask, Kind
+from symdh.kinematics.inverse.task import InverseTask
 
 
 class Rule(Enum):
@@ -137,29 +136,3 @@ class ClosedForm:
     def most_solutions(self) -> int:
         """The product of the branches: no goal has more solutions of this form."""
         return prod(step.branches for step in self.steps)
-
-    @cached_property
-    def branch_names(self) -> Mapping[int, tuple[str, ...]]:
-        """Names of the branches of each branching step, by its unknown."""
-        return {step.unknown: _names(self, step) for step in self.branching}
-
-
-def _names(form: ClosedForm, step: Step) -> tuple[str, ...]:
-    """Name the branches of a step by the part of the arm that its joint belongs to."""
-    if step.rule is Rule.HALF_ANGLE:
-        return tuple(f"root {k}" for k in range(1, step.branches + 1))
-    if step.rule is Rule.SLIDE_SQUARE:
-        return "plus the root", "minus the root"
-    moving = form.arm.moving
-    rows = {row for row, _ in form.ring.forms[step.unknown]}
-    if any(used.equation.source.is_squared for used in step.equations):
-        if len(moving) < 4 and len(form.branching) == 1:
-            return "right-hand solution, elbow down", "left-hand solution, elbow up"
-        return "elbow up", "elbow down"
-    if rows == {moving[0]} and form.task.kind is not Kind.ORIENTATION:
-        return "left shoulder", "right shoulder"
-    if form.task.with_orientation and rows & set(form.structure.wrist or moving[-2:]):
-        return "wrist not flipped", "wrist flipped"
-    if step.rule is Rule.RATIO:
-        return "arm not flipped over", "arm flipped over"
-    return "elbow up", "elbow down"

@@ -105,10 +105,12 @@ def inverse_task(robot: Robot, freedoms: int, text: str | None = None) -> Invers
     if not axes:
         return InverseTask(Kind.ORIENTATION, (), False, freedoms < 3)
     if len(axes) == 2 and freedoms == 2 and _parallel(lines):
-        return InverseTask(Kind.POSITION, axes, False, False)
+        if _places(robot, 2):
+            return InverseTask(Kind.POSITION, axes, False, False)
+        return InverseTask(Kind.PLANAR, axes, False, True)
     if len(axes) == 2 and freedoms == 3 and _parallel(lines):
         return InverseTask(Kind.PLANAR, axes, False, False)
-    if freedoms == 3 and len(axes) == 3:
+    if freedoms == 3 and _places(robot, 3):
         return InverseTask(Kind.POSITION, axes, False, False)
     return InverseTask(Kind.POSE, (0, 1, 2), False, True)
 
@@ -145,6 +147,22 @@ def moved_coordinates(robot: Robot) -> tuple[int, ...]:
         if max(column) - min(column) > _SMALL * (1 + max(abs(x) for x in column)):
             moved.append(axis)
     return tuple(moved)
+
+
+def _places(robot: Robot, rank: int) -> bool:
+    """Say whether the joints can move the hand in so many directions."""
+    chain = NumericChain.of(robot, _random_lengths(robot))
+    rows = [list(row) for row in chain.jacobian(_random_values(robot, 6))[:3]]
+    for k in range(rank):
+        column = range(len(rows[0]))
+        size, r, c = max((abs(rows[r][c]), r, c) for r in range(k, len(rows)) for c in column)
+        if size < _SMALL * chain.reach:
+            return False
+        rows[k], rows[r] = rows[r], rows[k]
+        for row in rows[k + 1 :]:
+            factor = row[c] / rows[k][c]
+            row[:] = [x - factor * y for x, y in zip(row, rows[k], strict=True)]
+    return True
 
 
 def _samples(robot: Robot) -> list[list[float]]:

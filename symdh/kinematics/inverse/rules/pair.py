@@ -70,12 +70,7 @@ def _is_safe(state: State, step: Step) -> bool:
     a_1, b_1, _, a_2, b_2, _ = step.coefficients
     if (a_1 == b_2 and a_2 == -b_1) or (a_1 == -b_2 and a_2 == b_1):
         return True
-    determinant = state.ring.reduced(a_1 * b_2 - a_2 * b_1)
-    lengths = state.ring.first_lengths
-    return all(
-        not any(power for k, power in enumerate(powers) if k not in lengths)
-        for powers in determinant
-    )
+    return state.ring.is_constant(state.ring.reduced(a_1 * b_2 - a_2 * b_1))
 
 
 def _determinant(

@@ -20,7 +20,7 @@ BRANCH = 40
 _BRANCH_OF_RATIO = 36
 _ALTERNATIVES = 3
 #: Among equals the joint nearer to the base comes first.
-EARLIER = 0.01
+EARLIER = 0.4
 
 Linear = tuple[Element, Element, Element]
 
@@ -55,6 +55,8 @@ def single_candidates(state: State) -> Iterator[Candidate]:
         best = min(equations, key=_cost)
         _, (a, b, c), view = best
         rule = _rule(a, b, c)
+        if rule is Rule.RATIO:
+            a, b = _with_few_signs(a, b)
         others = tuple(linear for _, linear, other in equations if other is not view)
         yield Candidate(
             _cost(best) + EARLIER * x,
@@ -65,6 +67,12 @@ def single_candidates(state: State) -> Iterator[Candidate]:
 def _cost(entry: tuple[int, Linear, View]) -> float:
     size, (_, _, c), view = entry
     return size + (BRANCH if c else _BRANCH_OF_RATIO) + view.equation.effort
+
+
+def _with_few_signs(a: Element, b: Element) -> tuple[Element, Element]:
+    """Return A and B, or both with the other sign: where ``atan2(-B, A)`` has fewer minus signs."""
+    negative = sum(1 for x in (*(-b).values(), *a.values()) if x < 0)
+    return (-a, -b) if 2 * negative > len(a) + len(b) else (a, b)
 
 
 def _rule(a: Element, b: Element, c: Element) -> Rule:

@@ -32,6 +32,8 @@ def slide_candidates(state: State) -> Iterator[Candidate]:
             continue
         c, b, a = parts
         if a:
+            if all(coefficient < 0 for coefficient in a.values()):
+                a, b, c = -a, -b, -c
             step = Step(x, Rule.SLIDE_SQUARE, (view.used,), (a, b, c), branches=2)
             yield Candidate(len(a) + len(b) + len(c) + BRANCH, step)
         elif b:
@@ -39,7 +41,7 @@ def slide_candidates(state: State) -> Iterator[Candidate]:
                 view.equation.source.effort
                 + 2 * len(b)
                 + len(c)
-                + (0 if _is_constant(state, b) else _MAY_VANISH)
+                + (0 if state.ring.is_constant(b) else _MAY_VANISH)
             )
             linear.setdefault(x, []).append((cost, (b, c), view))
     for x, equations in linear.items():
@@ -58,9 +60,3 @@ def _powers(state: State, element: Element, x: int) -> list[Element] | None:
             return None
         parts[powers[k]][(*powers[:k], 0, *powers[k + 1 :])] = coefficient
     return [state.without_zero(state.ring.ring.from_dict(part)) for part in parts]
-
-
-def _is_constant(state: State, element: Element) -> bool:
-    """Say whether an element is made of numbers of the table alone."""
-    lengths = state.ring.first_lengths
-    return all(k in lengths for powers in element for k, power in enumerate(powers) if power)

@@ -83,7 +83,8 @@ def _of_sides(state: State, split: Split, compared: list[tuple[Element, Element]
         right = sum((squares[k][1] for k in choice), ring.zero)
         element = ring.orthonormal(ring.reduced(left)) - right
         after = state.open(state.support(element))
-        if after and len(after) < len(before) and len(after) <= _MOST_OPEN:
+        useful = after and len(after) < len(before) and len(after) <= _MOST_OPEN
+        if useful and state.pool.is_given(element):
             entries = tuple((k, 3) for k in choice)
             source = Source(split.i, split.j, entries, split.inverted, split.base)
             shown = tuple(compared[k] for k in choice)
