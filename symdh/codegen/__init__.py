@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["TARGETS", "GeneratedFile", "Target", "generate"]
 
 
-def generate(robot: Robot, target: str) -> tuple[GeneratedFile, ...]:
+def generate(robot: Robot, target: str, **options: object) -> tuple[GeneratedFile, ...]:
     """Generate pose and Jacobian of a robot, base to tool, in one language.
 
     Parameters
@@ -24,6 +24,9 @@ def generate(robot: Robot, target: str) -> tuple[GeneratedFile, ...]:
     robot : Robot
     target : str
         Name of one of `TARGETS`.
+    **options
+        Of that target: ``trig``, ``precision`` and ``batch`` for C; ``lock`` for C and Python, the
+        joint variables that the inverse kinematics holds at what the seed says.
 
     Returns
     -------
@@ -33,11 +36,11 @@ def generate(robot: Robot, target: str) -> tuple[GeneratedFile, ...]:
     Raises
     ------
     UnsupportedError
-        When there is no such target, or the table holds something that has no code: a function
-        outside the table's own, an amount that is not a real number.
+        When there is no such target, the target has no such option, or the table holds something
+        that has no code: a function outside the table's own, an amount that is not a real number.
     """
     for candidate in TARGETS:
         if candidate.name == target:
-            return candidate.generate(robot)
+            return candidate.generate(robot, **options)
     names = ", ".join(candidate.name for candidate in TARGETS)
     raise UnsupportedError(f"there is no target {target!r}; there are {names}")

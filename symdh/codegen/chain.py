@@ -73,7 +73,9 @@ class Chain:
         return self.lowering.graph
 
 
-def lower_chain(robot: Robot, values: Mapping[Symbol, Expr] | None = None) -> Chain:
+def lower_chain(
+    robot: Robot, values: Mapping[Symbol, Expr] | None = None, *, splits_sums: bool = False
+) -> Chain:
     """Fuse the chain of a robot and turn it into nodes.
 
     Parameters
@@ -81,6 +83,8 @@ def lower_chain(robot: Robot, values: Mapping[Symbol, Expr] | None = None) -> Ch
     robot : Robot
     values : mapping of Symbol to Expr, optional
         Exact numbers to put in for some parameters; what they make zero or a right angle vanishes.
+    splits_sums : bool
+        Whether sines and cosines of sums are made of those of their terms (see `Lowering`).
 
     Raises
     ------
@@ -93,7 +97,7 @@ def lower_chain(robot: Robot, values: Mapping[Symbol, Expr] | None = None) -> Ch
         for motion in chain_word(robot, "base", "tool")
     )
     rows = {j.variable: i for i, j in enumerate(robot.joints, 1) if j.variable is not None}
-    lowering = Lowering(Graph(), rows)
+    lowering = Lowering(Graph(), rows, splits_sums=splits_sums)
     motions, turn = fuse_to_turn(word)
     # Angles are met in chain order, so that code reads c1, s1, c2, s2 ...
     runs = tuple(_lower_run(lowering, run) for run in cut_runs(motions))

@@ -49,11 +49,14 @@ class Facts:
     length_unit: str
     joints: tuple[JointFact, ...]
 
-    def joint_table(self, element: str) -> list[str]:
-        """Return one aligned line a joint, led by the element of ``q``: ``q[{}]``, say."""
+    def joint_table(self, element: str, first: int = 0) -> list[str]:
+        """Return one aligned line a joint, led by the element of ``q``: ``q[{}]``, say.
+
+        Elements are counted from `first`.
+        """
         rows = [
             (element.format(place), j.name, j.kind, j.unit, " to ".join(j.limits or ()))
-            for place, j in enumerate(self.joints)
+            for place, j in enumerate(self.joints, first)
         ]
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
         return [

@@ -22,7 +22,9 @@ _COSTS = {Op.ADD: 1, Op.SUB: 1, Op.MUL: 1, Op.DIV: 4}
 _CALL_COST = 20
 
 
-def forward_routine(robot: Robot, values: Mapping[Symbol, Expr] | None = None) -> Routine:
+def forward_routine(
+    robot: Robot, values: Mapping[Symbol, Expr] | None = None, *, splits_sums: bool = False
+) -> Routine:
     """Build the routine of a robot's pose, base to tool.
 
     Parameters
@@ -30,6 +32,8 @@ def forward_routine(robot: Robot, values: Mapping[Symbol, Expr] | None = None) -
     robot : Robot
     values : mapping of Symbol to Expr, optional
         Exact numbers to put in for some parameters; what they make zero or a right angle vanishes.
+    splits_sums : bool
+        Whether sines and cosines of sums are made of those of their terms (see `Lowering`).
 
     Returns
     -------
@@ -41,7 +45,7 @@ def forward_routine(robot: Robot, values: Mapping[Symbol, Expr] | None = None) -
     UnsupportedError
         When the table holds something that has no code.
     """
-    chain = lower_chain(robot, values)
+    chain = lower_chain(robot, values, splits_sums=splits_sums)
     point = end_point(chain)
     columns = cheapest(chain.graph, [columns_from_right(chain)], point)
     return schedule(pose_outputs(columns, point), chain.lowering.names)

@@ -32,7 +32,9 @@ class JacobianColumn:
     angular: Vector
 
 
-def jacobian_routine(robot: Robot, values: Mapping[Symbol, Expr] | None = None) -> Routine:
+def jacobian_routine(
+    robot: Robot, values: Mapping[Symbol, Expr] | None = None, *, splits_sums: bool = False
+) -> Routine:
     """Build the routine of a robot's Jacobian.
 
     Parameters
@@ -40,6 +42,8 @@ def jacobian_routine(robot: Robot, values: Mapping[Symbol, Expr] | None = None) 
     robot : Robot
     values : mapping of Symbol to Expr, optional
         Exact numbers to put in for some parameters; what they make zero or a right angle vanishes.
+    splits_sums : bool
+        Whether sines and cosines of sums are made of those of their terms (see `Lowering`).
 
     Returns
     -------
@@ -52,12 +56,14 @@ def jacobian_routine(robot: Robot, values: Mapping[Symbol, Expr] | None = None) 
     UnsupportedError
         When the table holds something that has no code.
     """
-    chain = lower_chain(robot, values)
+    chain = lower_chain(robot, values, splits_sums=splits_sums)
     columns = _columns(chain, robot, orientations(chain))
     return schedule(_outputs(robot, columns), chain.lowering.names)
 
 
-def forward_jacobian_routine(robot: Robot, values: Mapping[Symbol, Expr] | None = None) -> Routine:
+def forward_jacobian_routine(
+    robot: Robot, values: Mapping[Symbol, Expr] | None = None, *, splits_sums: bool = False
+) -> Routine:
     """Build the routine of a robot's pose and Jacobian together.
 
     Parameters, exceptions : as `jacobian_routine`.
@@ -67,7 +73,7 @@ def forward_jacobian_routine(robot: Robot, values: Mapping[Symbol, Expr] | None 
     Routine
         The outputs of T, then those of J.
     """
-    chain = lower_chain(robot, values)
+    chain = lower_chain(robot, values, splits_sums=splits_sums)
     frames = orientations(chain)
     columns = _columns(chain, robot, frames)
     point = end_point(chain)

@@ -53,6 +53,7 @@ def write_listing(
     functions: Mapping[Op, str],
     symbols: Mapping[Symbol, str],
     scope: Scope,
+    printer: type[Printer] = Printer,
 ) -> Listing:
     """Write a routine in one language.
 
@@ -65,15 +66,17 @@ def write_listing(
         Identifiers of the joint variables and parameters.
     scope : Scope
         Where the locals live; it has given out those identifiers.
+    printer : type of Printer
+        How the language writes expressions.
     """
     names: dict[Node, str] = {node: symbols[node.exact] for node in routine.inputs}
     for assignment in routine.assignments:
         names[assignment.node] = scope.take(assignment.name)
-    printer = Printer(functions, names)
+    write = printer(functions, names)
     return Listing(
         inputs=frozenset(node.exact for node in routine.inputs),
-        locals=tuple(Local(names[a.node], printer.definition(a.node)) for a in routine.assignments),
+        locals=tuple(Local(names[a.node], write.definition(a.node)) for a in routine.assignments),
         entries=tuple(
-            Entry(o.matrix, o.row, o.column, printer.expression(o.node)) for o in routine.outputs
+            Entry(o.matrix, o.row, o.column, write.expression(o.node)) for o in routine.outputs
         ),
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
 
 from sympy import (
@@ -49,6 +49,9 @@ class Lowering:
     graph : Graph
     rows : mapping of Symbol to int
         The row, counted from 1, that each joint variable belongs to.
+    splits_sums : bool
+        Whether the cosine of a sum of angles is made of theirs, ``c2 * c3 - s2 * s3``: no more
+        calls, and as exact for large angles, where ``q2 + q3`` itself is rounded.
 
     Attributes
     ----------
@@ -56,10 +59,13 @@ class Lowering:
         Readable names for the nodes of angles, their cosines and sines: angle23, c23, s23.
     """
 
-    def __init__(self, graph: Graph, rows: Mapping[Symbol, int]) -> None:
+    def __init__(
+        self, graph: Graph, rows: Mapping[Symbol, int], *, splits_sums: bool = False
+    ) -> None:
         self.graph = graph
         self.names: dict[Node, str] = {}
         self._rows = rows
+        self._splits_sums = splits_sums
         self._cos_sin: dict[Expr, tuple[Node, Node]] = {}
         self._chain_keys: dict[Expr, _ChainKey] = {}
 
@@ -111,13 +117,40 @@ class Lowering:
         negative = terms[0].could_extract_minus_sign()
         if negative:
             terms = [-term for term in terms]
+        if self._splits_sums and len(terms) > 1:
+            cosine, sine = self._cos_sin_of_sum(terms)
+        else:
+            cosine, sine = self._called(terms)
+        return cosine, self.graph.neg(sine) if negative else sine
+
+    def _called(self, terms: Sequence[Expr]) -> tuple[Node, Node]:
         argument = self._sum(terms)
         cosine = self.graph.call(Op.COS, argument)
         sine = self.graph.call(Op.SIN, argument)
+        self._name(terms, angle=argument, c=cosine, s=sine)
+        return cosine, sine
+
+    def _cos_sin_of_sum(self, terms: Sequence[Expr]) -> tuple[Node, Node]:
+        """Add the terms one by one, so that sums that begin alike share what they can."""
+        graph = self.graph
+        total = terms[0]
+        cosine, sine = self.cos_sin(total)
+        for count, term in enumerate(terms[1:], start=2):
+            c, s = self.cos_sin(term)
+            total += term
+            if total not in self._cos_sin:
+                self._cos_sin[total] = (
+                    graph.sub(graph.mul(cosine, c), graph.mul(sine, s)),
+                    graph.add(graph.mul(sine, c), graph.mul(cosine, s)),
+                )
+            cosine, sine = self._cos_sin[total]
+            self._name(terms[:count], c=cosine, s=sine)
+        return cosine, sine
+
+    def _name(self, terms: Sequence[Expr], **nodes: Node) -> None:
         label = angle_label(terms, self._rows)
-        for prefix, node in (("angle", argument), ("c", cosine), ("s", sine)):
+        for prefix, node in nodes.items():
             self.names.setdefault(node, prefix + label)
-        return cosine, self.graph.neg(sine) if negative else sine
 
     def _sum(self, terms: Iterable[Expr]) -> Node:
         return reduce(self.graph.add, map(self.node, terms))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import IntEnum
 
+from sympy import Expr
+
 from symdh.codegen.graph import Node, Op
 from symdh.codegen.literals import literal
 
@@ -36,9 +38,16 @@ class Printer:
         Identifiers of inputs and of assigned locals.
     """
 
+    #: Whether a product in a sum stands in brackets: some coding rules want every precedence shown.
+    brackets_products = False
+
     def __init__(self, functions: Mapping[Op, str], names: Mapping[Node, str]) -> None:
         self._functions = functions
         self._names = names
+
+    def number(self, value: Expr) -> str:
+        """Write an exact number; languages whose literals differ say so here."""
+        return literal(value)
 
     def expression(self, node: Node) -> str:
         """Write a node as its name or, where it has none, as what computes it."""
@@ -50,7 +59,7 @@ class Printer:
 
     def _write(self, node: Node) -> tuple[str, _Binds]:
         if node.op is Op.CONSTANT:
-            text = literal(node.exact)
+            text = self.number(node.exact)
             return text, _Binds.SUM if text.startswith("-") else _Binds.ATOM
         if node.op is Op.NEG:
             return self._negative(node.args[0]), _Binds.SUM
@@ -63,7 +72,14 @@ class Printer:
         binds = _BINARY[op]
         # The right side is bracketed even in a sum: a + (b + c) rounds unlike (a + b) + c.
         tighter = _Binds(binds + 1)
-        return f"{self._bracketed(left, binds)} {op.value} {self._bracketed(right, tighter)}"
+        first, second = self._bracketed(left, binds), self._bracketed(right, tighter)
+        if self.brackets_products and binds is _Binds.SUM:
+            first, second = self._product_set_off(left, first), self._product_set_off(right, second)
+        return f"{first} {op.value} {second}"
+
+    def _product_set_off(self, node: Node, text: str) -> str:
+        is_product = _BINARY.get(node.op) is _Binds.PRODUCT and node not in self._names
+        return f"({text})" if is_product else text
 
     def _negative(self, node: Node) -> str:
         if node.op is Op.SUB and node not in self._names:

@@ -1,27 +1,35 @@
 """C99, also valid C++: ``void NAME_fk(const double q[n], double T[16])``, parameters between.
 
-``NAME_jacobian`` fills ``double J[6 * n]``, ``NAME_fk_jacobian`` both.
+``NAME_jacobian`` fills ``double J[6 * n]``, ``NAME_fk_jacobian`` both. Sines and cosines come from
+a kernel of our own that is inlined, or from <math.h>.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from sympy import Expr, Symbol
+from sympy import Expr, Integer, Symbol
 
-from symdh.codegen.environment import render
-from symdh.codegen.facts import facts_of
+from symdh.codegen.c.batch import Batch, PackWriter
+from symdh.codegen.c.body import BodyWriter, Statement, takes_losses, widths
+from symdh.codegen.c.folding import WIDTH, fold
+from symdh.codegen.c.kernel import Kernel, kernel
+from symdh.codegen.facts import Facts, facts_of
 from symdh.codegen.forward import forward_routine
-from symdh.codegen.graph import Op
+from symdh.codegen.graph import Node, Op
+from symdh.codegen.inverse.c import CSection, c_context, c_section
 from symdh.codegen.jacobian import forward_jacobian_routine, jacobian_routine
-from symdh.codegen.listing import Entry, Listing, Local, write_listing
-from symdh.codegen.literals import literal
-from symdh.codegen.names import Scope, comment_text, file_stem, words
+from symdh.codegen.listing import Local
+from symdh.codegen.names import Scope, comment_text, file_stem
+from symdh.codegen.precision import DOUBLE, FLOAT, PRECISIONS, Precision
+from symdh.codegen.printer import Printer
+from symdh.codegen.reserved import is_reserved_in_c
 from symdh.codegen.routine import Routine
 from symdh.codegen.targets import GeneratedFile
+from symdh.codegen.verification import CheckProgram, Poses, find_program
 from symdh.robot import Robot
+from symdh.templating import render
 
 _FUNCTIONS = {
     Op.SIN: "sin",
@@ -36,41 +44,12 @@ _FUNCTIONS = {
     Op.POW: "pow",
 }
 
-#: Keywords of C99 to C23 and of C++98 to C++20.
-_KEYWORDS = words(
-    """
-    alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t
-    char8_t class co_await co_return co_yield compl concept const const_cast consteval constexpr
-    constinit continue decltype default delete do double dynamic_cast else enum explicit export
-    extern false float for friend goto if inline int long mutable namespace new noexcept not not_eq
-    nullptr operator or or_eq private protected public register reinterpret_cast requires restrict
-    return short signed sizeof static static_assert static_cast struct switch template this
-    thread_local throw true try typedef typeid typename typeof typeof_unqual union unsigned using
-    virtual void volatile wchar_t while xor xor_eq
-    """
-)
-
-#: Macros of the standard headers, and those that compilers and systems define besides.
-_MACROS = words(
-    """
-    BUFSIZ CHAR_BIT CLOCKS_PER_SEC DOMAIN FILENAME_MAX FOPEN_MAX HUGE HUGE_VAL HUGE_VALF HUGE_VALL
-    I INFINITY MAXFLOAT NAN NDEBUG NULL OVERFLOW PI PLOSS RAND_MAX SING TLOSS TMP_MAX UNDERFLOW
-    X_TLOSS assert bool complex errno far fortran huge i386 imaginary interface linux
-    math_errhandling max min near noreturn offsetof pascal signgam small stderr stdin stdout sun
-    unix vax
-    """
-)
-_MACRO_FAMILIES = re.compile(
-    r"E[A-Z0-9]\w*|(M|FP|DBL|FLT|LDBL|DECIMAL|MATH|SIG|LC|SEEK|ATOMIC)_\w*"
-    r"|(U?INT\w*|S?CHAR|UCHAR|U?SHRT|U?LONG|U?LLONG|SIZE|PTRDIFF|WCHAR|WINT)_(MIN|MAX|C)"
-)
-
-
 #: What is named after the stem of the files.
-_OWN = ("fk", "jacobian", "fk_jacobian", "params", "N_JOINTS")
-
-#: Longest line of generated code.
-_WIDTH = 100
+_OWN = (
+    *("fk", "jacobian", "fk_jacobian", "params", "N_JOINTS"),
+    *("WIDTH", "INLINE", "pack", "bits", "lost", "library", "sincos", "sincos2", "sincos4"),
+    *("fk_batch", "fk_poses", "fk_pack", "lost_pack", "spread", "gather", "one"),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,38 +65,89 @@ class _Function:
     """A function: its head without the semicolon, its lines, and the arguments it never reads."""
 
     head: str
-    locals: tuple[Local, ...]
+    statements: tuple[Statement, ...]
     unread: tuple[str, ...]
     assignments: tuple[_Assignment, ...]
 
 
-def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
+def generate(
+    robot: Robot,
+    *,
+    trig: str = "inline",
+    precision: str = "double",
+    batch: bool = False,
+    lock: tuple[Symbol, ...] = (),
+) -> tuple[GeneratedFile, ...]:
     """Generate ``NAME.h`` and ``NAME.c`` (see `symdh.codegen.generate`).
 
     Parameters that have a value are compiled in; the others are fields of ``NAME_params``. C has
     no empty array, so a robot without joint variables gets no function for its Jacobian.
+
+    Parameters
+    ----------
+    robot : Robot
+    trig : {"inline", "libm"}
+        Where sines and cosines come from.
+    precision : {"double", "float"}
+        Kind of all numbers. Files and names for float begin with ``NAME_float``.
+    batch : bool
+        Also write ``NAME_fk_batch`` and ``NAME_fk_poses``, the pose for many joint values; for a
+        robot without joint variables there are none.
+    lock : tuple of Symbol
+        Joint variables that the inverse kinematics holds at what the seed says.
     """
     known = {s: robot.values[s] for s in robot.parameters if s in robot.values}
-    writer = _Writer(robot, known)
-    functions = {"fk": writer.function("fk", forward_routine(robot, known), {"T": 16})}
+    writer = _Writer(robot, known, PRECISIONS[precision], is_inline=trig == "inline")
+    forward = forward_routine(robot, known)
+    functions = {"fk": writer.function("fk", forward, {"T": 16})}
     if robot.variables:
         size = 6 * len(robot.variables)
         alone, both = jacobian_routine(robot, known), forward_jacobian_routine(robot, known)
         functions["jacobian"] = writer.function("jacobian", alone, {"J": size})
         functions["fk_jacobian"] = writer.function("fk_jacobian", both, {"T": 16, "J": size})
+    many = writer.batch(forward) if batch and robot.variables else None
     facts = facts_of(robot)
     stem = writer.stem
+    number = writer.precision.literal
     context = {
         "stem": stem,
         "facts": facts,
         "joint_lines": facts.joint_table("q[{}]"),
-        "constants": [f"{comment_text(s.name)} = {literal(known[s])}" for s in known],
+        "constants": [f"{comment_text(s.name)} = {number(known[s])}" for s in known],
         "fields": [(field, comment_text(s.name)) for s, field in writer.fields.items()],
         "functions": functions,
+        "real": writer.precision.name,
+        "f": writer.precision.suffix,
+        "zero": number(Integer(0)),
+        "one": number(Integer(1)),
+        "digits": writer.precision.bits,
+        "kernel": writer.kernel(functions.values()),
+        "batch": many,
+        "ik": writer.inverse(facts, known, lock),
+        **c_context(),
     }
     return (
-        GeneratedFile(f"{stem}.h", render("c/header.h.jinja", **context)),
-        GeneratedFile(f"{stem}.c", render("c/source.c.jinja", **context)),
+        GeneratedFile(f"{stem}.h", fold(render("c/header.h.jinja", **context))),
+        GeneratedFile(f"{stem}.c", fold(render("c/source.c.jinja", **context))),
+    )
+
+
+def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) -> CheckProgram:
+    """Return a program that prints poses (see `symdh.codegen.verification`)."""
+    stem = files[0].name.removesuffix(".h")
+    kind = FLOAT if stem == f"{file_stem(robot.name)}_{FLOAT.name}" else DOUBLE
+    main = render(
+        "c/check.c.jinja",
+        stem=stem,
+        real=kind.name,
+        rows=[[kind.number(x) for x in row] for row in poses.joints],
+        parameters=[kind.number(x) for x in poses.parameters.values()],
+    )
+    compiler = find_program("cc", "gcc", "clang")
+    sources = ("check.c", f"{stem}.c")
+    return CheckProgram(
+        (GeneratedFile("check.c", main),),
+        ((compiler, "-O2", *sources, "-o", "check", "-lm"), ("./check",)),
     )
 
 
@@ -128,73 +158,143 @@ class _Writer:
     ----------
     stem : str
         What every name with external linkage begins with.
+    precision : Precision
+        Kind of all numbers.
     fields : dict of Symbol to str
         The fields of ``NAME_params``.
     """
 
-    def __init__(self, robot: Robot, known: Mapping[Symbol, Expr]) -> None:
-        self.stem = file_stem(robot.name)
+    def __init__(
+        self, robot: Robot, known: Mapping[Symbol, Expr], precision: Precision, *, is_inline: bool
+    ) -> None:
+        stem = file_stem(robot.name)
+        self.stem = stem if precision is DOUBLE else f"{stem}_{precision.name}"
+        self.precision = precision
+        self._is_inline = is_inline
         self._robot = robot
         self._own = {f"{self.stem}_{name}" for name in _OWN}
         free = [parameter for parameter in robot.parameters if parameter not in known]
         # Fields only have to keep clear of keywords and macros; locals hide functions, arguments.
-        self.fields = Scope(lambda n: n in self._own or _is_taken(n)).take_symbols(free)
+        self.fields = Scope(lambda n: n in self._own or is_reserved_in_c(n)).take_symbols(free)
+
+    def kernel(self, functions: Iterable[_Function]) -> Kernel | None:
+        """Write the kernel that some functions need, if they do."""
+        statements = [statement for function in functions for statement in function.statements]
+        needed = widths(statements)
+        return kernel(self.precision, needed, loses=takes_losses(statements)) if needed else None
+
+    def inverse(
+        self, facts: Facts, known: Mapping[Symbol, Expr], lock: tuple[Symbol, ...]
+    ) -> CSection:
+        """Write the inverse kinematics, or why there is none."""
+        if self.precision is not DOUBLE:
+            return CSection("it is written in double precision only")
+        return c_section(self._robot, known, _FUNCTIONS, self.stem, self.fields, facts, lock)
 
     def function(self, name: str, routine: Routine, results: Mapping[str, int]) -> _Function:
         """Write a routine as a function that fills some arrays, given with their sizes."""
-        scope = Scope(lambda n: n in self._own or _is_taken_locally(n))
+        functions = {op: function + self.precision.suffix for op, function in _FUNCTIONS.items()}
+        scope = Scope(lambda n: n in self._own or _is_taken_locally(n) or n in functions.values())
         symbols = scope.take_symbols([*self.fields, *self._robot.variables])
-        listing = write_listing(routine, _FUNCTIONS, symbols, scope)
-        read = {"q": listing.inputs & set(self._robot.variables)}
+        names: dict[Node, str] = {node: symbols[node.exact] for node in routine.inputs}
+        printer = _Printer(self.precision, functions, names)
+        body = BodyWriter(self.stem, names, scope, printer, self.precision.literal(Integer(0)))
+        write = body.in_stages if self._is_inline else body.in_line
+        inputs = {node.exact for node in routine.inputs}
+        read = {"q": inputs & set(self._robot.variables)}
         if self.fields:
-            read["p"] = listing.inputs & set(self.fields)
+            read["p"] = inputs & set(self.fields)
         return _Function(
             head=self._head(name, results),
             # Results are written only after all arguments are read.
-            locals=(*self._reads(listing, symbols), *listing.locals),
+            statements=(*self._reads(inputs, symbols), *write(routine)),
             unread=tuple(argument for argument, found in read.items() if not found),
             assignments=tuple(
                 _Assignment(f"{matrix}[{place}]", text)
                 for matrix, size in results.items()
-                for place, text in enumerate(_elements(listing.entries, matrix, size))
+                for place, text in enumerate(self._elements(routine, printer, matrix, size))
             ),
+        )
+
+    def batch(self, routine: Routine) -> Batch:
+        """Write the pose for many joint values."""
+        functions = {op: function + self.precision.suffix for op, function in _FUNCTIONS.items()}
+        # Both functions of the template and the array of entries keep their names.
+        taken = {"squares", "square", "i", "q_stride", "q_step", "T_stride", "T_step"}
+        taken |= set(functions.values())
+        scope = Scope(lambda n: n in self._own or _is_taken_locally(n) or n in taken)
+        symbols = scope.take_symbols([*self.fields, *self._robot.variables])
+        names: dict[Node, str] = {node: symbols[node.exact] for node in routine.inputs}
+        varying = [node for node in routine.inputs if node.exact in self._robot.variables]
+        for node in routine.inputs:
+            if node.exact in self.fields:
+                names[node] = f"p->{self.fields[node.exact]}"
+        printer = _Printer(self.precision, functions, names)
+        zero = self.precision.literal(Integer(0))
+        body = PackWriter(self.stem, names, scope, printer, zero, varying).body(routine)
+        places = {variable: place for place, variable in enumerate(self._robot.variables)}
+        reads = tuple((places[node.exact], names[node]) for node in varying)
+        read = {"q": bool(reads), "p": not self.fields or len(varying) < len(routine.inputs)}
+        real, params = self.precision.name, f"const {self.stem}_params *p"
+        between = [params] if self.fields else []
+        soa = [f"const {real} *q", "size_t q_stride", *between, f"{real} *T", "size_t T_stride"]
+        aos = [f"const {real} *q", *between, f"{real} *T"]
+        return Batch(
+            soa_head=f"void {self.stem}_fk_batch(size_t count, {', '.join(soa)})",
+            aos_head=f"void {self.stem}_fk_poses(size_t count, {', '.join(aos)})",
+            body=body if self._is_inline and body.angles else None,
+            reads=tuple(sorted(reads)),
+            unread=tuple(argument for argument, found in read.items() if not found),
         )
 
     def _head(self, name: str, results: Mapping[str, int]) -> str:
         n = len(self._robot.variables)
-        arguments = [f"const double q[{n}]" if n else "const double *q"]
+        real = self.precision.name
+        arguments = [f"const {real} q[{n}]" if n else f"const {real} *q"]
         if self.fields:
             arguments.append(f"const {self.stem}_params *p")
-        arguments += [f"double {matrix}[{size}]" for matrix, size in results.items()]
+        arguments += [f"{real} {matrix}[{size}]" for matrix, size in results.items()]
         line = f"void {self.stem}_{name}({', '.join(arguments)})"
-        if len(line) < _WIDTH:
+        if len(line) < WIDTH:
             return line
         broken = ",\n    ".join(arguments)
         return f"void {self.stem}_{name}(\n    {broken})"
 
-    def _reads(self, listing: Listing, symbols: Mapping[Symbol, str]) -> Iterator[Local]:
+    def _reads(self, inputs: Collection[Expr], symbols: Mapping[Symbol, str]) -> Iterator[Local]:
         places = {symbol: f"q[{place}]" for place, symbol in enumerate(self._robot.variables)}
         places |= {symbol: f"p->{field}" for symbol, field in self.fields.items()}
         for symbol, place in places.items():
-            if symbol in listing.inputs:
+            if symbol in inputs:
                 yield Local(symbols[symbol], place)
 
+    def _elements(self, routine: Routine, printer: Printer, matrix: str, size: int) -> list[str]:
+        """Return the elements of a result, row by row; a pose ends in 0 0 0 1."""
+        texts = [self.precision.literal(Integer(0))] * size
+        if matrix == "T":
+            texts[-1] = self.precision.literal(Integer(1))
+        columns = 4 if matrix == "T" else size // 6
+        for output in routine.outputs:
+            if output.matrix == matrix:
+                place = columns * output.row + output.column
+                texts[place] = printer.expression(output.node)
+        return texts
 
-def _elements(entries: Iterable[Entry], matrix: str, size: int) -> list[str]:
-    """Return the elements of a result, row by row; a pose ends in 0 0 0 1."""
-    texts = ["0.0"] * size
-    if matrix == "T":
-        texts[-1] = "1.0"
-    columns = 4 if matrix == "T" else size // 6
-    for entry in entries:
-        if entry.matrix == matrix:
-            texts[columns * entry.row + entry.column] = entry.text
-    return texts
 
+class _Printer(Printer):
+    """Writes literals of a kind of number, and sums as MISRA C wants them."""
 
-def _is_taken(name: str) -> bool:
-    return name in _KEYWORDS or name in _MACROS or _MACRO_FAMILIES.fullmatch(name) is not None
+    brackets_products = True
+
+    def __init__(
+        self, precision: Precision, functions: Mapping[Op, str], names: Mapping[Node, str]
+    ) -> None:
+        super().__init__(functions, names)
+        self._precision = precision
+
+    def number(self, value: Expr) -> str:
+        """Write an exact number."""
+        return self._precision.literal(value)
 
 
 def _is_taken_locally(name: str) -> bool:
-    return _is_taken(name) or name in {"q", "p", "T", "J", *_FUNCTIONS.values()}
+    return is_reserved_in_c(name) or name in {"q", "p", "T", "J", *_FUNCTIONS.values()}

@@ -1,0 +1,92 @@
+"""MATLAB and Octave: one function file a function.
+
+``NAME_fk(q)`` gives T, 4 x 4, ``NAME_jacobian(q)`` J, 6 x n, ``NAME_fk_jacobian(q)`` both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from symdh.codegen.functions import Language, required_values, write_program
+from symdh.codegen.graph import Op
+from symdh.codegen.names import file_stem, words
+from symdh.codegen.targets import GeneratedFile
+from symdh.codegen.verification import CheckProgram, Poses, find_program
+from symdh.errors import UnsupportedError
+from symdh.robot import Robot
+from symdh.templating import render
+
+_CALLS = {
+    Op.SIN: "sin",
+    Op.COS: "cos",
+    Op.TAN: "tan",
+    Op.ASIN: "asin",
+    Op.ACOS: "acos",
+    Op.ATAN: "atan",
+    Op.ATAN2: "atan2",
+    Op.SQRT: "sqrt",
+    Op.ABS: "abs",
+    Op.POW: "realpow",
+}
+
+#: Keywords of MATLAB and Octave, and the functions that the files call.
+_RESERVED = words(
+    """
+    arguments break case catch classdef continue do else elseif end end_try_catch
+    end_unwind_protect endclassdef endenumeration endevents endfor endfunction endif endmethods
+    endparfor endproperties endspmd endswitch endwhile enumeration events for function global if
+    import methods otherwise parfor persistent properties return spmd switch try until
+    unwind_protect unwind_protect_cleanup while
+    ans error fieldnames isempty isfield nargin numel setdiff struct zeros
+    q p T J known given check_arguments
+    """
+) | frozenset(_CALLS.values())
+
+#: Longest name of MATLAB; it cuts what is longer, without an error.
+_LONGEST_NAME = 63
+
+
+_LANGUAGE = Language(calls=_CALLS, is_reserved=_RESERVED.__contains__, element="q({})", first=1)
+
+
+def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
+    """Generate ``NAME_fk.m``, ``NAME_jacobian.m``, ``NAME_fk_jacobian.m``.
+
+    See `symdh.codegen.generate`.
+    """
+    stem = file_stem(robot.name)
+    if len(f"{stem}_fk_jacobian") > _LONGEST_NAME:
+        raise UnsupportedError(
+            f"{stem}_fk_jacobian is longer than the {_LONGEST_NAME} letters that MATLAB allows a "
+            "name; give the table a shorter one"
+        )
+    program = write_program(robot, _LANGUAGE)
+    return tuple(
+        GeneratedFile(
+            f"{stem}_{function.name}.m",
+            render(
+                "matlab/function.m.jinja",
+                stem=stem,
+                program=program,
+                function=function,
+                facts=program.facts,
+                n=len(program.facts.joints),
+                joint_lines=program.facts.joint_table("q({})", first=1),
+            ),
+        )
+        for function in program.functions
+    )
+
+
+def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) -> CheckProgram:
+    """Return a program that prints poses (see `symdh.codegen.verification`)."""
+    program = write_program(robot, _LANGUAGE)
+    main = render(
+        "matlab/check.m.jinja",
+        function=files[0].name.removesuffix(".m"),
+        rows=[[repr(x) for x in row] for row in poses.joints],
+        parameters=required_values(program, poses.parameters),
+    )
+    driver = GeneratedFile("symdh_check_poses.m", main)
+    octave = find_program("octave-cli", "octave")
+    return CheckProgram((driver,), ((octave, "--norc", "--no-history", "--quiet", driver.name),))
