@@ -12,12 +12,20 @@ import shutil
 import signal
 import stat
 import sys
+import threading
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from symdh.errors import OutputError, UnsupportedError
+
+if sys.platform != "win32":
+    import fcntl
+
+LOCK_PATIENCE = 30.0
+"""Seconds to wait for another run that writes into the same folder."""
 
 _MARKER = re.compile(rb"(?:generated|written) by symdh", re.IGNORECASE)
 _MARKER_REACH = 2048
@@ -65,7 +73,9 @@ def write_files(
     UnsupportedError
         When a name differs only in case from another one: some file systems take the two for one.
     """
-    with _signals_held(), _made(folder):
+    # Signals are held last: while it waits for its turn, a run can be stopped.
+    with _made(folder), _turn(folder), _signals_held():
+        _remove_stale_stages(folder)
         _refuse_case_twins(folder, files)
         old = {name: _replaceable(folder / name, force) for name in files}
         new = {name: content for name, content in files.items() if old[name] != content}
@@ -107,6 +117,43 @@ def _made(folder: Path) -> Iterator[None]:
             with suppress(OSError):
                 each.rmdir()
         raise
+
+
+@contextmanager
+def _turn(folder: Path) -> Iterator[None]:
+    """Wait while another run writes into the folder, so that two sets are never mixed.
+
+    The folder itself is locked, which leaves nothing behind. Where the system has no such locks,
+    files are still whole.
+    """
+    descriptor = None
+    with suppress(OSError):
+        descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        if descriptor is not None:
+            _lock(descriptor, folder)
+        yield
+    finally:
+        if descriptor is not None:
+            os.close(descriptor)
+
+
+def _lock(descriptor: int, folder: Path) -> None:
+    """Lock an open folder until it is closed."""
+    if sys.platform == "win32":
+        return
+    deadline = time.monotonic() + LOCK_PATIENCE
+    while True:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            if time.monotonic() > deadline:
+                raise OutputError(f"cannot write into {folder}: another run holds it") from None
+            time.sleep(0.01)
+        except OSError:  # a file system without locks
+            return
+        else:
+            return
 
 
 def _refuse_case_twins(folder: Path, names: Mapping[str, bytes]) -> None:
@@ -154,7 +201,6 @@ def is_marked(name: str, content: bytes) -> bool:
 @contextmanager
 def _staging_folder(folder: Path) -> Iterator[Path]:
     """Give a fresh folder inside `folder` and remove it at the end."""
-    _remove_stale_stages(folder)
     stage = folder / f".symdh-{os.getpid()}-{os.urandom(4).hex()}"
     try:
         with _blaming(folder):
@@ -166,7 +212,9 @@ def _staging_folder(folder: Path) -> Iterator[Path]:
 
 def _remove_stale_stages(folder: Path) -> None:
     """Remove what a killed run left behind."""
-    for each in folder.iterdir():
+    with _blaming(folder):
+        present = list(folder.iterdir())
+    for each in present:
         match = _STAGE_NAME.fullmatch(each.name)
         if match and each.is_dir() and not each.is_symlink() and not _is_alive(int(match[1])):
             shutil.rmtree(each, ignore_errors=True)
@@ -228,12 +276,23 @@ def _put_back(copy: Path, path: Path) -> None:
 
 @contextmanager
 def _signals_held() -> Iterator[None]:
-    """Let SIGINT and SIGTERM wait, so that they find the set all old or all new, and no litter."""
-    if sys.platform == "win32":
+    """Let SIGINT and SIGTERM wait, so that they find the set all old or all new, and no litter.
+
+    A mask would not do: a thread of a library takes the signal that this thread masks, and Python
+    then runs the handler here.
+    """
+    if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM})
+    arrived: list[int] = []
+    before = {
+        number: signal.signal(number, lambda number, frame: arrived.append(number))
+        for number in (signal.SIGINT, signal.SIGTERM)
+    }
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        for number, handler in before.items():
+            signal.signal(number, signal.SIG_DFL if handler is None else handler)
+        if arrived:
+            signal.raise_signal(arrived[0])
