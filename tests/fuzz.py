@@ -15,6 +15,7 @@ import resource
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import atheris
@@ -22,7 +23,10 @@ import yaml
 
 with atheris.instrument_imports(include=["symdh"]):
     from symdh.errors import SymdhError
+    from symdh.kinematics.answers import judge
+    from symdh.notation.short_names import ShortNames
     from symdh.table import loads_table, parse_expression
+    from symdh.table.answers import blank_answers, read_answers
     from symdh.table.axes import read_mechanism
     from symdh.table.rotations import parse_rotations, read_rotation_sheet
     from symdh.table.source import decode
@@ -30,10 +34,12 @@ with atheris.instrument_imports(include=["symdh"]):
 
 from sympy import Rational
 
+from symdh.render.interchange import export
+
 DATA = Path(__file__).with_name("data")
 KEPT = Path(__file__).with_name("fuzz_corpus")
 EXAMPLES = Path(__file__).parent.parent / "examples"
-MEBIBYTE = 1 << 20
+EXAMINED = loads_table((EXAMPLES / "planar_2r.yaml").read_bytes()).robot
 
 
 def read_expression(data: bytes) -> None:
@@ -42,6 +48,19 @@ def read_expression(data: bytes) -> None:
 
 def read_table(data: bytes) -> None:
     loads_table(data, "arm.yaml")
+
+
+def read_csv(data: bytes) -> None:
+    loads_table(data, "arm.csv")
+
+
+def read_markdown(data: bytes) -> None:
+    loads_table(data, "arm.md")
+
+
+def read_and_judge_answers(data: bytes) -> None:
+    sheet = read_answers(decode(data, "answers.yaml"), EXAMINED, ShortNames(EXAMINED))
+    judge(EXAMINED, sheet)
 
 
 def read_axes(data: bytes) -> None:
@@ -68,6 +87,12 @@ def tables() -> Iterator[bytes]:
             yield base64.b64decode(case["input_base64"])
 
 
+def tables_as(form: str) -> Iterator[bytes]:
+    """Give the good tables in another form."""
+    for path in sorted((DATA / "tables").glob("*.yaml")):
+        yield export(loads_table(path.read_bytes()).robot, form).text.encode()
+
+
 def files(folder: Path, pattern: str) -> Iterator[bytes]:
     for path in sorted(folder.glob(pattern)):
         yield path.read_bytes()
@@ -83,10 +108,18 @@ def expressions() -> Iterator[bytes]:
     )
 
 
+def answers() -> Iterator[bytes]:
+    yield blank_answers(EXAMINED).encode()
+    yield from files(EXAMPLES / "answers", "*.yaml")
+
+
 #: What reads, and what to begin with.
 TARGETS: dict[str, tuple[Callable[[bytes], None], Callable[[], Iterator[bytes]]]] = {
     "expression": (read_expression, expressions),
     "table": (read_table, tables),
+    "csv": (read_csv, lambda: tables_as("csv")),
+    "markdown": (read_markdown, lambda: tables_as("markdown")),
+    "answers": (read_and_judge_answers, answers),
     "axes": (read_axes, lambda: files(EXAMPLES / "mechanisms", "*.yaml")),
     "urdf": (read_urdf, lambda: files(DATA / "urdf", "*.urdf")),
     "rotations": (read_rotations, lambda: files(EXAMPLES / "rotations", "*.yaml")),
@@ -98,10 +131,8 @@ def judged(read: Callable[[bytes], None]) -> Callable[[bytes], None]:
 
     def judge(data: bytes) -> None:
         before = resource.getrusage(resource.RUSAGE_SELF).ru_utime
-        try:
+        with suppress(SymdhError):
             read(data)
-        except SymdhError:
-            pass
         spent = resource.getrusage(resource.RUSAGE_SELF).ru_utime - before
         if spent > 1:
             raise TimeoutError(f"{spent:.1f} s of CPU")
