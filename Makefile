@@ -7,16 +7,16 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed-for-development
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check golden bench vendor clean
+.PHONY: help run test check golden bench bench-ik bench-code lint-c repro trust trust-cut vendor clean
 
 help: ## list the targets
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 16
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 16
 
 run: $(STAMP) ## derive examples/planar_2r.yaml into out/ and name what it wrote
 	$(BIN)/symdh derive examples/planar_2r.yaml -o out
 
-test: $(STAMP) ## run the tests
-	$(BIN)/python -m pytest
+test: $(STAMP) ## run the tests, on every core
+	$(BIN)/python -m pytest -n auto --dist loadfile
 
 check: $(STAMP) ## lint, formatting, types
 	$(BIN)/ruff check .
@@ -28,6 +28,24 @@ golden: $(STAMP) ## renew the golden files; look at the difference before commit
 
 bench: $(STAMP) ## measure against sympy's own simplify and bare imports
 	$(BIN)/python tests/bench.py
+
+bench-ik: $(STAMP) ## time and count inverse kinematics in C beside EAIK
+	$(BIN)/python tests/bench_ik.py
+
+bench-code: $(STAMP) ## time generated code beside CasADi, SymForce, sympy and Pinocchio
+	$(BIN)/python tests/bench_code.py
+
+lint-c: $(STAMP) ## every compiler and linter at its strictest over generated C of every table
+	$(BIN)/python tests/lint_c.py
+
+repro: $(STAMP) ## the same bytes over hash seeds, locales, versions of sympy and numpy
+	$(BIN)/python tests/repro.py
+
+trust: $(STAMP) ## fuzzing, faults, mutants and the like, each figure beside its goal (30 min)
+	$(BIN)/python tests/trust.py
+
+trust-cut: $(STAMP) ## the ten minutes of it that CI runs
+	$(BIN)/python tests/trust.py --cut
 
 vendor: ## renew the vendored KaTeX from npm (KATEX=0.19.1 for one version)
 	python3 tools/vendor_katex.py $(KATEX)

@@ -21,12 +21,28 @@ from symdh.errors import (
 )
 
 if TYPE_CHECKING:
-    from symdh.interface import ForwardKinematics, Robot, forward_kinematics, load, loads
+    from symdh.interface import (
+        Choices,
+        Derivation,
+        Drawing,
+        ForwardKinematics,
+        Robot,
+        derive,
+        draw,
+        forward_kinematics,
+        load,
+        loads,
+    )
     from symdh.robot import Convention, Joint, JointType, Limits, Motion, Units
 
 _HOME = {
+    "Choices": "symdh.interface",
+    "Derivation": "symdh.interface",
+    "Drawing": "symdh.interface",
     "ForwardKinematics": "symdh.interface",
     "Robot": "symdh.interface",
+    "derive": "symdh.interface",
+    "draw": "symdh.interface",
     "forward_kinematics": "symdh.interface",
     "load": "symdh.interface",
     "loads": "symdh.interface",
@@ -39,8 +55,11 @@ _HOME = {
 }
 
 __all__ = [
+    "Choices",
     "Convention",
+    "Derivation",
     "DerivationError",
+    "Drawing",
     "ForwardKinematics",
     "Joint",
     "JointType",
@@ -55,6 +74,8 @@ __all__ = [
     "Units",
     "UnsupportedError",
     "__version__",
+    "derive",
+    "draw",
     "forward_kinematics",
     "load",
     "loads",

@@ -75,6 +75,10 @@ class TableError(SymdhError):
         self.diagnostics = tuple(diagnostics)
         super().__init__("\n".join(str(d) for d in self.diagnostics))
 
+    def __reduce__(self) -> tuple[type[TableError], tuple[tuple[Diagnostic, ...]]]:
+        """Let the error travel between processes with its diagnostics."""
+        return type(self), (self.diagnostics,)
+
 
 class UnsupportedError(SymdhError):
     """The request is well formed but outside what symdh can do, e.g. a frame that is not there."""

@@ -23,7 +23,7 @@ import pytest
 import yaml
 from conftest import SYMDH, Runner
 from generated import STRICT_C, compile_file, import_file
-from oracle import Arm, read_arm
+from oracle import FIFTY_DIGITS, Arm, read_arm
 
 from tools import require_tool
 
@@ -36,8 +36,6 @@ CASES: dict[str, dict[str, Any]] = {
 WAITS = {
     "EN01": "never: symdh has no --simplify",
     "EN07": "issue 8: every supported release of sympy",
-    "GC03": "issue 7: trigonometry at large angles",
-    "GC04": "issue 7: the float target",
     "GC08": "issue 8: mutants of generated code",
     "OU05": "issue 8: a full disk under the output folder",
     "OU09": "issue 8: SIGINT at every write",
@@ -45,10 +43,6 @@ WAITS = {
     "OU11": "issue 8: SIGKILL at every write",
     "OU12": "issue 8: many processes into one folder",
     "OU15": "issue 8: every system call failing in turn",
-    "TE02": "issue 6: templates of the user",
-    "TE03": "issue 6: templates of the user",
-    "TE04": "issue 6: templates of the user",
-    "TE05": "issue 6: templates of the user",
     "TX11": "issue 8: lualatex",
 }
 
@@ -469,7 +463,8 @@ def test_no_tex_is_said_in_one_line_and_the_source_is_kept(
     arm: Path, tmp_path: Path, run_symdh: Runner
 ) -> None:
     (tmp_path / "bin").mkdir()
-    ran = run_symdh("pdf", arm, "-o", "arm.pdf", env={"PATH": str(tmp_path / "bin")})
+    options = ("--engine", "pdflatex")  # by default the package typst would do
+    ran = run_symdh("pdf", arm, "-o", "arm.pdf", *options, env={"PATH": str(tmp_path / "bin")})
     refused(ran, 3, "pdflatex", tmp_path)
     (line,) = (line for line in ran.stderr.splitlines() if "pdflatex" in line)
     assert "texlive-latex-recommended" in line
@@ -528,6 +523,47 @@ def test_a_template_in_a_name_or_title_is_text(
     assert r"worth \{\{7*7\}\}" in (tmp_path / "out" / "arm.tex").read_text()
     texts = [*contents(tmp_path / "out").values(), ran.stdout.encode()]
     assert not any(b"worth 49" in text for text in texts if text is not None)
+
+
+def with_template(text: str, folder: Path, run_symdh: Runner) -> subprocess.CompletedProcess[str]:
+    """Derive the arm with a C header of the user's own, after other text on the first line."""
+    own = folder / "own" / "c" / "header.h.jinja"
+    own.parent.mkdir(parents=True)
+    own.write_text(f"/* Ours. */\n{text}\n")
+    before = contents(folder)
+    ran = run_symdh("derive", "arm.yaml", "-o", "out", "--templates", "own")
+    assert contents(folder) == before
+    return ran
+
+
+@action("TE02")
+def test_a_template_cannot_leave_the_sandbox(arm: Path, tmp_path: Path, run_symdh: Runner) -> None:
+    text = '{{ cycler.__init__.__globals__.os.popen("id").read() }}'
+    ran = with_template(text, tmp_path, run_symdh)
+    refused(ran, 2, "own/c/header.h.jinja:2:11: access to attribute '__init__'", tmp_path)
+    assert "uid=" not in ran.stderr
+
+
+@action("TE03")
+def test_a_misspelt_variable_is_no_empty_string(
+    arm: Path, tmp_path: Path, run_symdh: Runner
+) -> None:
+    ran = with_template("{{ stme }}", tmp_path, run_symdh)
+    says = "own/c/header.h.jinja:2:4: 'stme' is undefined; did you mean stem?"
+    refused(ran, 2, says, tmp_path)
+
+
+@action("TE04")
+def test_a_template_reads_no_other_file(arm: Path, tmp_path: Path, run_symdh: Runner) -> None:
+    ran = with_template('{% include "../../../etc/passwd" %}', tmp_path, run_symdh)
+    refused(ran, 2, "own/c/header.h.jinja:2:13: there is no template", tmp_path)
+    assert "root:" not in ran.stderr
+
+
+@action("TE05")
+def test_a_loop_without_end_is_a_limit(arm: Path, tmp_path: Path, run_symdh: Runner) -> None:
+    ran = with_template("{% for i in range(10**9) %}x{% endfor %}", tmp_path, run_symdh)
+    refused(ran, 4, "own/c/header.h.jinja:2:1: Range too big", tmp_path)
 
 
 @action("TE06")
@@ -594,6 +630,30 @@ def test_bad_numbers_trap_nothing_and_write_nothing_outside(
     )
     ran = subprocess.run([tmp_path / "call"], capture_output=True, text=True, check=False)
     assert (ran.returncode, ran.stderr) == (0, "")
+
+
+@action("GC03")
+def test_angles_of_a_million_radians_cost_no_digits(tmp_path: Path, run_symdh: Runner) -> None:
+    table = ROOT / "tests" / "data" / "tables" / "puma560.yaml"
+    assert run_symdh("code", table, "--target", "c", "-o", ".").returncode == 0
+    arm = read_arm(table.read_text(encoding="utf-8"))
+    q = np.random.default_rng(3).choice([-1e6, 1e6, 999_999.9], (8, 6))
+    joints = {name: FIFTY_DIGITS.array(q[:, k]) for k, (name, _) in enumerate(arm.variables)}
+    exact = arm.pose(joints, arithmetic=FIFTY_DIGITS)
+    found = compile_file(tmp_path / "puma560.c", n=6)(q)
+    assert float(np.max(np.abs(found - exact))) <= 8 * 2.0**-52 * max(1.0, arm.reach())
+
+
+@action("GC04")
+def test_float_code_never_widens(tmp_path: Path, run_symdh: Runner) -> None:
+    gcc = require_tool("gcc")
+    table = ROOT / "tests" / "data" / "tables" / "puma560.yaml"
+    ran = run_symdh("code", table, "--target", "c", "--precision", "float", "-o", ".")
+    assert ran.returncode == 0
+    command = [gcc, "-std=c99", "-O2", *STRICT_C, "-S", "puma560_float.c", "-o", "-"]
+    built = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (built.returncode, built.stderr) == (0, "")
+    assert "cvtss2sd" not in built.stdout
 
 
 @action("GC05")

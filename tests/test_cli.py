@@ -63,7 +63,8 @@ def names(folder: Path = Path()) -> set[str]:
 def test_the_commands_are_those_of_the_design() -> None:
     designed = {"derive", "show", "eval", "latex", "pdf", "code", "check", "init", "completion"}
     later = {"html", "rotate", "task", "jacobian", "singular", "frames", "convert", "ik"}
-    assert set(program.commands) == designed | later
+    handouts = {"answer", "draw", "templates"}
+    assert set(program.commands) == designed | later | handouts
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.name)
@@ -303,6 +304,7 @@ def test_pdf_without_tex_keeps_the_latex(
     arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr("symdh.render.pdf.has_typst", lambda: False)
     assert run(["pdf", str(arm)]) == 3
     shown = capsys.readouterr().err
     assert "texlive-latex-recommended" in shown

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import functools
-import io
 import json
 import re
 import subprocess
@@ -257,18 +256,50 @@ def _pose_of_words(robot: Robot, numbers: dict[str, Any]) -> np.ndarray:
     return pose
 
 
+@pytest.mark.parametrize("unit", ["deg", "rad"])
+@pytest.mark.parametrize(
+    "angle",
+    [
+        "k*(b0 + 0.1 rad)",
+        "k*(b0 - 5 deg)",
+        "k*(0.25 rad + m*(b0 + (1/7) rad))",
+        "(b0 - 2 rad)*cos(k*(b0 + 0.1 rad))",
+        "k*abs(b0 + 0.1 rad) + 30 deg",
+        "k*atan2(h + 0.5 m, 2 m)*(b0 + 1 rad)",
+    ],
+)
+def test_a_sum_inside_a_product_keeps_its_unit(angle: str, unit: str) -> None:
+    robot = symdh.loads(
+        f"name: inner\nconvention: standard\nunits: {{angle: {unit}, length: m}}\n"
+        f"joints:\n  - {{theta: q1, d: 0, a: 1, alpha: '{angle}'}}\nbase: ['Rx({angle})']\n"
+    )
+    for text in (table_yaml(robot), export(robot, "json").text):
+        again = symdh.loads(text)
+        assert again.joints == robot.joints
+        assert again.base == robot.base
+
+
+def test_a_factor_in_a_table_of_radians_stays_a_factor() -> None:
+    robot = symdh.loads(
+        "name: inner\nconvention: standard\nunits: {angle: rad, length: m}\n"
+        "joints:\n  - {theta: q1, d: 0, a: 1, alpha: (k + 1)*b0}\n"
+    )
+    assert "rad" not in table_yaml(robot).split("joints:")[1]
+    assert symdh.loads(table_yaml(robot)).joints == robot.joints
+
+
 # -- text formats ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("table", [*TABLES, *EXAMPLES], ids=lambda path: path.stem)
-@pytest.mark.parametrize("form", ["yaml", "json"])
+@pytest.mark.parametrize("form", ["yaml", "json", "csv", "markdown"])
 def test_symdh_reads_its_own_table_back(table: Path, form: str) -> None:
     robot = load(table)
     assert symdh.loads(export(robot, form).text) == robot
 
 
 @pytest.mark.parametrize("convention", BOTH)
-@pytest.mark.parametrize("form", ["yaml", "json"])
+@pytest.mark.parametrize("form", ["yaml", "json", "csv", "markdown"])
 def test_types_offsets_titles_and_words_come_back(convention: str, form: str) -> None:
     robot = symdh.loads(CROOKED.format(convention=convention))
     assert symdh.loads(export(robot, form).text) == robot
@@ -296,16 +327,19 @@ def test_json_says_everything_as_text() -> None:
 def test_csv_has_the_rows(convention: str, header: list[str]) -> None:
     robot = symdh.loads(CROOKED.format(convention=convention))
     exported = export(robot, "csv")
-    first, *rows = csv.reader(io.StringIO(exported.text))
+    lines = exported.text.splitlines()
+    comments = [line for line in lines if line.startswith("#")]
+    assert "# units: {angle: deg, length: mm}" in comments
+    first, *rows = csv.reader(lines[len(comments) :])
     assert first == header
     assert len(rows) == 6
     by_name = [dict(zip(first, row, strict=True)) for row in rows]
     assert [row["d_i"] for row in by_name] == ["d1", "20 - q2", "h3", "60", "q5 + 12", "7"]
     assert [row["type"] for row in by_name] == ["", "", "fixed", "", "", ""]
-    assert exported.notes == ("CSV holds the rows alone; left out: base, tool, values, limits",)
+    assert exported.notes == ()
 
 
-def test_markdown_is_one_table_with_the_rest_below() -> None:
+def test_markdown_is_one_table_with_the_rest_on_top() -> None:
     text = export(symdh.loads(CROOKED.format(convention="standard")), "markdown").text
     lines = text.splitlines()
     rows = [line for line in lines if line.startswith("|")]
@@ -313,10 +347,13 @@ def test_markdown_is_one_table_with_the_rest_below() -> None:
     assert [cell.strip() for cell in rows[0].strip("|").split("|")][:3] == ["i", "theta_i", "d_i"]
     assert set(rows[1]) <= set("|- ")
     assert len(rows) == 2 + 6
-    assert r"\*arm\*" in lines[0]
-    assert r"\<50\>" in lines[0]
-    assert "- Convention: standard" in lines
-    assert "- Tool: Rx(40 deg) Tx(3) Ty(-2) Rz(10 deg)" in lines
+    top = lines.index("---", 1)
+    assert r"\*arm\*" in lines[top + 2]
+    assert r"\<50\>" in lines[top + 2]
+    assert "convention: standard" in lines[:top]
+    assert yaml.safe_load("\n".join(lines[:top]))["tool"] == (
+        ["Rx(40 deg)", "Tx(3)", "Ty(-2)", "Rz(10 deg)"]
+    )
 
 
 def test_a_product_in_a_markdown_cell_is_no_emphasis() -> None:

@@ -27,6 +27,7 @@ from symdh.derivation.blocks import (
     Entries,
     EntryStep,
     EntrySteps,
+    Figure,
     Fitting,
     Identity,
     MatrixRow,
@@ -726,6 +727,8 @@ def nodes_in(block: object) -> Iterator[Node]:
             yield from nodes_in(whole)
             for each in otherwise:
                 yield from nodes_in(each)
+        case Figure(drawing=drawing):
+            yield from (part for part in drawing.caption if not isinstance(part, str))
         case _:
             raise AssertionError(type(block))
 

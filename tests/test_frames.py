@@ -6,6 +6,7 @@ other from the hand to the base; it knows nothing of frames, normals or rows.
 
 from __future__ import annotations
 
+import json
 import os
 import random
 from collections.abc import Mapping, Sequence
@@ -673,3 +674,31 @@ def example(name: str) -> Mechanism:
 
 def mechanism_from(text: str) -> Mechanism:
     return read_mechanism(from_text(text, "<test>")).mechanism
+
+
+def test_frames_as_json_say_how_the_table_came_about(run_symdh: Runner) -> None:
+    """By hand: the common normals of the SCARA's parallel axes, and b_2 on the second axis."""
+    axes = EXAMPLES / "mechanisms" / "scara_axes.yaml"
+    done = run_symdh("frames", axes, "--format", "json")
+    assert (done.returncode, done.stderr) == (0, "")
+    told = json.loads(done.stdout)
+    assert told["frames"]["1"]["origin"] == ["a1", "0", "d1"]
+    assert told["frames"]["2"]["relation"] == "parallel"
+    assert told["frames"]["2"]["origin_rule"] == "through_previous"
+    assert told["frames"]["4"]["z"] == ["0", "0", "-1"]
+    assert told["rows"]["2"] == {
+        "theta": "0",
+        "d": "0",
+        "a": "a2",
+        "alpha": "0",
+        "b": ["a1", "0", "d1"],
+    }
+    table = loads_table(json.dumps(told["table"])).robot
+    assert table.joints == loads_table(run_symdh("frames", axes, "-o", "-").stdout).robot.joints
+
+
+def test_frames_as_a_web_page(run_symdh: Runner) -> None:
+    axes = EXAMPLES / "mechanisms" / "scara_axes.yaml"
+    page = run_symdh("frames", axes, "--format", "html").stdout
+    assert page.startswith("<!DOCTYPE html>")
+    assert page.count('class="symdh-arm"') == 1

@@ -46,14 +46,14 @@ TABLES = [*EXAMPLES, *CORPUS]
 #: Read by nothing but pdflatex with the packages that a plain TeX installation has.
 PACKAGES = {
     *("fontenc", "inputenc", "lmodern", "geometry"),
-    *("amsmath", "mathtools", "booktabs", "hyperref"),
+    *("amsmath", "mathtools", "booktabs", "tikz", "hyperref"),
 }
 FRAGMENT_PREAMBLE = r"""\documentclass[11pt,a4paper]{article}
 \usepackage[T1]{fontenc}
 \usepackage[utf8]{inputenc}
 \usepackage{lmodern}
 \usepackage[textwidth=160mm]{geometry}
-\usepackage{amsmath,mathtools,booktabs}
+\usepackage{amsmath,mathtools,booktabs,tikz}
 \allowdisplaybreaks
 \begin{document}
 \input{fragment}

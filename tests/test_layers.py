@@ -17,7 +17,7 @@ LAYERS = (
     {"table", "motion"},
     {"kinematics"},
     {"frames"},
-    {"notation"},
+    {"notation", "templating"},
     {"derivation", "codegen"},
     {"render"},
     {"interface"},
@@ -31,8 +31,8 @@ RANK = {part: rank for rank, layer in enumerate(LAYERS) for part in layer}
 USERS = {
     "click": {"cli"},
     "yaml": {"table"},
-    "jinja2": {"codegen", "render"},
-    "subprocess": {"render"},
+    "jinja2": {"templating"},
+    "subprocess": {"render", "codegen"},
     "numpy": set(),
 }
 

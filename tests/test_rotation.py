@@ -43,11 +43,10 @@ from symdh.kinematics.rotation import (
     read_off,
 )
 from symdh.motion import rotation as turn
-from symdh.robot import Axis
-from symdh.table import parse_expression
+from symdh.robot import Axis, Units
+from symdh.table import parse_expression, parse_point
 from symdh.table.rotations import (
     parse_matrix,
-    parse_point,
     parse_rotations,
     read_rotation_sheet,
 )
@@ -480,7 +479,7 @@ def test_matrices_may_be_typed_in_many_ways(text: str) -> None:
 
 
 def test_a_point_may_have_names() -> None:
-    x, y, z = parse_point("a_1, 2*b, sqrt(2)")
+    x, y, z = parse_point("a_1, 2*b, sqrt(2)", Units(), "--point")
     assert (str(x), str(y), str(z)) == ("a1", "2*b", "sqrt(2)")
 
 
@@ -626,7 +625,7 @@ def test_symbols_give_formulas(empty: Path, capsys: Capture) -> None:
         ([QUIZ, "--matrix", "1 0 0 0 1 0 0 0 1"], "one of them"),
         ([QUIZ, "--from", "1"], "--from and --to need --table"),
         ([QUIZ, "--euler", "zzz"], "there is no sequence of Euler angles 'zzz'"),
-        ([QUIZ, "--point", "1,2"], "--point:1:1: a point has 3 numbers"),
+        ([QUIZ, "--point", "1,2"], "--point:1:4: a point has three"),
         ([QUIZ, "--set", "q=1"], "--set:1:1: q is not in the table"),
         (["Rx(45) body"], "ROTATIONS:1:4: an angle needs a unit: write 45 deg"),
         (["--matrix", "1 0 0 0 1 0 0 0 2"], "column a has length 2, not 1 (tolerance 1e-06)"),

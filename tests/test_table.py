@@ -35,9 +35,9 @@ from symdh.table import (
     parse_setting,
     symbol_dimension,
 )
+from symdh.table.headers import LABELS, PARAMETERS, TYPE, VARIABLE, column_name
 from symdh.table.joint_type import TYPES
 from symdh.table.reader import KEYS
-from symdh.table.rows import LABELS, PARAMETERS, TYPE, VARIABLE, column_name
 from symdh.table.schema import SCHEMA_FILE, schema_text
 from symdh.table.starter import STARTER
 from symdh.table.units import ANGLE_UNITS, LENGTH_UNITS

@@ -243,7 +243,8 @@ def test_frames_that_are_not_there_and_what_is_too_large() -> None:
     ],
 )
 def test_points_are_read_in_the_units_of_the_table(text: str, point: tuple[Expr, ...]) -> None:
-    assert parse_point(load(table_named("planar_2r")), text) == point
+    arm = load(table_named("planar_2r"))
+    assert parse_point(text, arm.units, "--at", arm.variables) == point
 
 
 @pytest.mark.parametrize(
@@ -257,8 +258,9 @@ def test_points_are_read_in_the_units_of_the_table(text: str, point: tuple[Expr,
     ],
 )
 def test_what_is_no_point(text: str, column: int, message: str) -> None:
+    arm = load(table_named("planar_2r"))
     with pytest.raises(TableError) as caught:
-        parse_point(load(table_named("planar_2r")), text)
+        parse_point(text, arm.units, "--at", arm.variables)
     (diagnostic,) = caught.value.diagnostics
     assert (diagnostic.filename, diagnostic.line) == ("--at", 1)
     assert message in diagnostic.message

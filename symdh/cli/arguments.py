@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
+from symdh.errors import UnsupportedError
+
 if TYPE_CHECKING:
     from sympy import Expr, Symbol
 
@@ -25,7 +27,7 @@ def assignment(robot: Robot, settings: tuple[str, ...]) -> dict[Symbol, Expr]:
 
 
 def point(robot: Robot, text: str | None) -> tuple[Expr, Expr, Expr] | None:
-    """Read ``x,y,z``; None where nothing is said.
+    """Read the ``x,y,z`` of --at; None where nothing is said.
 
     Raises
     ------
@@ -34,7 +36,28 @@ def point(robot: Robot, text: str | None) -> tuple[Expr, Expr, Expr] | None:
     """
     from symdh.table import parse_point
 
-    return None if text is None else parse_point(robot, as_utf8(text))
+    if text is None:
+        return None
+    return parse_point(as_utf8(text), robot.units, "--at", robot.variables)
+
+
+def joint(robot: Robot, name: str) -> Symbol:
+    """Return the joint variable that a user named.
+
+    Raises
+    ------
+    UnsupportedError
+        When the robot has none of that name.
+    """
+    from sympy import Symbol
+
+    from symdh.table.names import canonical_name
+
+    variable = Symbol(canonical_name(as_utf8(name).strip()), real=True)
+    if variable not in robot.variables:
+        known = ", ".join(each.name for each in robot.variables)
+        raise UnsupportedError(f"{name} is no joint variable of {robot.name}; these are: {known}")
+    return variable
 
 
 def as_utf8(argument: str) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import os
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from click import format_filename
@@ -29,6 +30,24 @@ def listing(files: Iterable[WrittenFile]) -> str:
         f"{'wrote' if changed else 'kept '} {name:{longest}}  {size:>8}"
         + ("" if changed else "  (unchanged)")
         for name, size, changed in rows
+    )
+
+
+def line_of_set(files: Sequence[WrittenFile], longest: int) -> str:
+    """Name the folder of a set of files on one line, with their number and size.
+
+    Parameters
+    ----------
+    files : sequence of WrittenFile
+    longest : int
+        Length of the longest name among the folders of all sets, so that their lines are columns.
+    """
+    folder = f"{format_filename(files[0].path.parent)}{os.sep}"
+    changed = any(file.changed for file in files)
+    size = _size(sum(file.size for file in files))
+    return (
+        f"{'wrote' if changed else 'kept '} {folder:{longest + 1}}  {len(files)} files  {size:>8}"
+        + ("" if changed else "  (unchanged)")
     )
 
 

@@ -7,7 +7,6 @@
 from __future__ import annotations
 
 import gc
-import os
 import signal
 import sys
 from collections.abc import Sequence
@@ -17,11 +16,10 @@ from typing import NoReturn
 
 import click
 
-from symdh.cli import completion, console
+from symdh.cli import completion, console, failures
 from symdh.cli.program import program
-from symdh.errors import LimitError, SymdhError
+from symdh.errors import SymdhError
 
-_INTERNAL = 70
 _CLOSED_PIPE = 128 + 13
 
 
@@ -53,8 +51,6 @@ def run(arguments: Sequence[str]) -> int:
         with suppress(OSError):
             error.show()
         return error.exit_code
-    except SymdhError as error:
-        return _failed(error)
     except Stopped as stop:
         return 128 + stop.number
     except KeyboardInterrupt:
@@ -63,12 +59,8 @@ def run(arguments: Sequence[str]) -> int:
         return _CLOSED_PIPE
     except OSError as error:  # from click's own printing of a help text
         return _failed(console.stdout_failure(error))
-    except MemoryError:
-        return _failed(LimitError("out of memory"))
-    except RecursionError:
-        return _failed(LimitError("an expression is nested too deeply"))
     except Exception as error:
-        return _internal_error(error)
+        return _failed(failures.as_symdh_error(error))
 
 
 def _invoke(arguments: list[str]) -> int:
@@ -90,16 +82,5 @@ def _stop(number: int, frame: FrameType | None) -> NoReturn:
 
 
 def _failed(error: SymdhError) -> int:
-    console.show_error(error)
+    failures.show(error)
     return error.exit_status
-
-
-def _internal_error(error: Exception) -> int:
-    if os.environ.get("SYMDH_DEBUG") == "1":
-        sys.excepthook(type(error), error, error.__traceback__)
-    console.note(
-        f"internal error: {type(error).__name__}: {error}\n"
-        "This is a defect of symdh: please report it with the table; "
-        "SYMDH_DEBUG=1 shows where it happened."
-    )
-    return _INTERNAL

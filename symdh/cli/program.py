@@ -8,11 +8,13 @@ from pathlib import Path
 import click
 
 from symdh._version import __version__
+from symdh.cli.commands.answer import answer
 from symdh.cli.commands.check import check
 from symdh.cli.commands.code import code
 from symdh.cli.commands.completion import completion
 from symdh.cli.commands.convert import convert
 from symdh.cli.commands.derive import derive
+from symdh.cli.commands.draw import draw
 from symdh.cli.commands.evaluate import evaluate
 from symdh.cli.commands.frames import frames
 from symdh.cli.commands.html import html
@@ -24,6 +26,7 @@ from symdh.cli.commands.pdf import pdf
 from symdh.cli.commands.rotate import rotate
 from symdh.cli.commands.show import show
 from symdh.cli.commands.task import task
+from symdh.cli.commands.templates import templates
 from symdh.cli.options import examples
 
 #: In the order in which a newcomer meets them.
@@ -43,7 +46,10 @@ COMMANDS = (
     latex,
     html,
     pdf,
+    draw,
+    answer,
     code,
+    templates,
     completion,
 )
 
@@ -68,7 +74,7 @@ class Program(click.Group):
         close = difflib.get_close_matches(name, self.commands, n=1)
         if close:
             return f"Did you mean {close[0]}?"
-        if Path(name).suffix in (".yaml", ".yml"):
+        if Path(name).suffix in (".yaml", ".yml", ".csv", ".md"):
             return f"Did you mean symdh derive {name}?"
         return f"The commands are {', '.join(self.commands)}."
 
@@ -86,6 +92,6 @@ class Program(click.Group):
 def program() -> None:
     """Derive the kinematics of a serial arm from its Denavit-Hartenberg table.
 
-    Exit status: 0 done, 2 wrong usage or input, 3 a file cannot be read or written,
-    4 a limit was reached, 130 interrupted.
+    Exit status: 0 done, 1 a checked answer is wrong, 2 wrong usage or input, 3 a file cannot be
+    read or written, 4 a limit was reached, 130 interrupted.
     """

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+from symdh.derivation.drawing.shapes import Drawing
+from symdh.derivation.text import Inline as Inline
+from symdh.derivation.text import Text as Text
 from symdh.notation.nodes import Matrix, Node
-
-Inline = str | Node
-Text = tuple[Inline, ...]
 
 
 class Identity(Enum):
@@ -146,6 +146,53 @@ class Fitting:
     otherwise: tuple[Block, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Room:
+    """Room to write an answer by hand.
+
+    Attributes
+    ----------
+    lines : int
+        Its height in lines of handwriting.
+    label : Node or None
+        What the answer begins with: ``A_1``.
+    brackets : bool
+        A matrix is wanted: empty brackets behind the label in place of a box.
+    columns : tuple of Node
+        A table is wanted: the heads of its columns, the first of which numbers its rows.
+    """
+
+    lines: int
+    label: Node | None = None
+    brackets: bool = False
+    columns: tuple[Node, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What a sheet asks for, in one sentence.
+
+    Attributes
+    ----------
+    text : Text
+    answer : tuple of Block or None
+        None on a problem sheet: what is not there no writer can give away.
+    room : Room
+        Left in place of the answer.
+    """
+
+    text: Text
+    answer: tuple[Block, ...] | None
+    room: Room
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A drawing with its caption below."""
+
+    drawing: Drawing
+
+
 Block = (
     Paragraph
     | Definitions
@@ -158,6 +205,8 @@ Block = (
     | Entries
     | PoseResult
     | Fitting
+    | Question
+    | Figure
 )
 
 
@@ -170,6 +219,25 @@ class Chapter:
 
 
 @dataclass(frozen=True, slots=True)
+class SheetHead:
+    """What makes a document a sheet of homework: its chapters are exercises.
+
+    Attributes
+    ----------
+    problem : bool
+        To be filled in by hand, so nothing on it may tell an answer.
+    fields : tuple of str
+        What the student writes on top, each before a blank rule.
+    points : bool
+        Whether each exercise has a place for its points.
+    """
+
+    problem: bool
+    fields: tuple[str, ...] = ()
+    points: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Document:
     """A whole derivation.
 
@@ -179,8 +247,19 @@ class Document:
         Free text of the table's author; renderers escape it.
     subtitle : Text
     chapters : tuple of Chapter
+    preface : tuple of Block
+        What stands before the first chapter.
+    sheet : SheetHead or None
+        None for a handout.
     """
 
     title: str
     subtitle: Text
     chapters: tuple[Chapter, ...]
+    preface: tuple[Block, ...] = ()
+    sheet: SheetHead | None = None
+
+    @property
+    def blocks(self) -> tuple[Block, ...]:
+        """All blocks, those inside others left out."""
+        return self.preface + tuple(block for each in self.chapters for block in each.blocks)

@@ -7,6 +7,7 @@ from symdh.derivation import (
     links,
     meaning,
     numbers,
+    picture,
     products,
     recursion,
     result,
@@ -14,7 +15,7 @@ from symdh.derivation import (
     table,
     velocity,
 )
-from symdh.derivation.blocks import Document, Text
+from symdh.derivation.blocks import Chapter, Document, Text
 from symdh.derivation.style import Naming, Order, Style
 from symdh.kinematics.forward import forward_kinematics
 from symdh.kinematics.singular import MAX_JOINTS, singularities
@@ -53,8 +54,9 @@ def derive(
     """
     style = Style(robot, Order(order), Naming(naming))
     forward = forward_kinematics(robot)
+    given = table.chapter(style)
     chapters = [
-        table.chapter(style),
+        Chapter(given.title, (*given.blocks, *picture.drawings(robot))),
         meaning.chapter(style),
         general.chapter(style),
         links.chapter(style, forward),
@@ -75,5 +77,9 @@ def derive(
     figures = numbers.chapter(style, forward)
     if figures is not None:
         chapters.append(figures)
-    subtitle: Text = (_CONVENTION[robot.convention],)
-    return Document(robot.title or robot.name, subtitle, tuple(chapters))
+    return Document(robot.title or robot.name, subtitle(robot), tuple(chapters))
+
+
+def subtitle(robot: Robot) -> Text:
+    """Return what stands below a robot's name: its convention."""
+    return (_CONVENTION[robot.convention],)

@@ -16,6 +16,8 @@ from symdh.derivation.blocks import (
     Paragraph,
     Text,
 )
+from symdh.derivation.drawing.choices import Choices
+from symdh.derivation.picture import drawings
 from symdh.derivation.style import Style
 from symdh.derivation.words import number_word
 from symdh.frames.geometry import Relation
@@ -31,6 +33,9 @@ _CONVENTION = {
     Convention.STANDARD: "Frames by the standard (distal) Denavit–Hartenberg rules",
     Convention.MODIFIED: "Frames by the modified (proximal) Denavit–Hartenberg rules",
 }
+
+#: The story of the frames speaks of the axes and of the points b_k.
+_FEET = Choices(feet=True)
 
 
 def frames_document(assignment: Assignment) -> Document:
@@ -60,7 +65,7 @@ class _Narrator:
         result = table.chapter(self.style)
         return (
             Chapter("The axes", (*self._axes(), *self._snaps())),
-            Chapter("The frames", placed),
+            Chapter("The frames", (*placed, *drawings(self.found.robot, self.found.home, _FEET))),
             Chapter("The parameters", rows),
             Chapter(result.title, (*result.blocks, *self._ends())),
         )

@@ -90,7 +90,7 @@ def _put_in(style: Style, forward: ForwardKinematics, position: ImmutableMatrix)
     robot = style.robot
     turning = angles(robot)
     lengths = {s: v for s, v in robot.values.items() if s not in turning}
-    complete = _missing(forward, robot.values) == []
+    complete = missing(forward, robot.values) == []
     reached = pose(robot, forward.start, forward.end, robot.values) if complete else None
     steps = []
     for row in range(3):
@@ -154,18 +154,18 @@ def _measured(style: Style, value: float) -> Node:
 def _numeric_pose(style: Style, forward: ForwardKinematics) -> list[Block]:
     """Return the numeric matrix; joint variables without a value are taken as zero and said so."""
     robot = style.robot
-    missing = _missing(forward, robot.values)
-    if any(symbol not in robot.variables for symbol in missing):
+    zeros = missing(forward, robot.values)
+    if any(symbol not in robot.variables for symbol in zeros):
         return []
-    values = {**robot.values, **{symbol: Integer(0) for symbol in missing}}
+    values = {**robot.values, **{symbol: Integer(0) for symbol in zeros}}
     try:
         numbers = pose(robot, forward.start, forward.end, values)
     except UnsupportedError:
         return []
     name = style.pose_name(forward.start, forward.end)
     lead: tuple[str | Node, ...] = ("In numbers",)
-    if missing:
-        zero = Equation((*(style.notation.write(s) for s in missing), Number(Integer(0))))
+    if zeros:
+        zero = Equation((*(style.notation.write(s) for s in zeros), Number(Integer(0))))
         lead = ("With ", zero, " the pose is")
     length = robot.units.length
     unit = f" (lengths in {length.value})" if length else ""
@@ -177,6 +177,7 @@ def rounded(numbers: NumericMatrix) -> Matrix:
     return Matrix(tuple(tuple(Rounded(figures(x)) for x in row) for row in numbers))
 
 
-def _missing(forward: ForwardKinematics, known: Mapping[Symbol, Expr]) -> list[Symbol]:
+def missing(forward: ForwardKinematics, known: Mapping[Symbol, Expr]) -> list[Symbol]:
+    """Return the symbols without a value; the joint variables among them are taken as zero."""
     robot = forward.robot
     return in_name_order({*robot.variables, *robot.parameters} - set(known))

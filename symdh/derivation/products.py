@@ -71,16 +71,17 @@ def chapter(style: Style, forward: ForwardKinematics) -> Chapter:
     if not done:
         blocks.append(Paragraph(("One link alone: its transform is the pose.",)))
     for step in done:
-        product = _product(style, step, final=step is done[-1])
-        introduced = legend(style, [product.matrix], known)
-        known.append(product.matrix)
+        made = product(style, step, final=step is done[-1])
+        introduced = legend(style, [made.matrix], known)
+        known.append(made.matrix)
         if introduced is not None:
             blocks.append(introduced)
-        blocks.append(product)
+        blocks.append(made)
     return Chapter(title, tuple(blocks))
 
 
-def _product(style: Style, step: ProductStep, final: bool) -> ProductResult:
+def product(style: Style, step: ProductStep, final: bool) -> ProductResult:
+    """Return one multiplication as a block."""
     factors = Juxtaposed(
         (_factor_name(style, step.start, step.middle), _factor_name(style, step.middle, step.end))
     )

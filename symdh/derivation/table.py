@@ -32,13 +32,17 @@ _R, _T = MotionKind.ROTATION, MotionKind.TRANSLATION
 
 def chapter(style: Style) -> Chapter:
     """Return the chapter on the table."""
-    robot = style.robot
     blocks: list[Block] = [
-        ParameterTable(_header(robot), _rows(style), _notes(style)),
+        parameters(style),
         Paragraph(("Each row stands for four motions, made one after the other:",)),
         Display(Equation((_row_name(style), sequence(style)))),
     ]
     return Chapter("The table", tuple(blocks))
+
+
+def parameters(style: Style) -> ParameterTable:
+    """Return the table itself."""
+    return ParameterTable(_header(style.robot), _rows(style), _notes(style))
 
 
 def sequence(style: Style) -> Node:

@@ -58,7 +58,9 @@ _TOO_LONG: Text = (
 )
 
 
-def chapter(style: Style, found: GeometricJacobian, known: Iterable[Node] = ()) -> Chapter:
+def chapter(
+    style: Style, found: GeometricJacobian, known: Iterable[Node] = (), statics: bool = True
+) -> Chapter:
     """Return the chapter on velocity.
 
     Parameters
@@ -67,6 +69,8 @@ def chapter(style: Style, found: GeometricJacobian, known: Iterable[Node] = ()) 
     found : GeometricJacobian
     known : iterable of Node
         Formulas whose short forms have been introduced.
+    statics : bool
+        End with the joint torques that hold a force.
     """
     blocks: list[Block] = [*_law(style, found), *_rule(style)]
     if _leaves(found) > _READABLE:
@@ -81,7 +85,8 @@ def chapter(style: Style, found: GeometricJacobian, known: Iterable[Node] = ()) 
     names = tuple(_column_name(k + 1) for k in range(len(found.columns)))
     together = Display(Equation((_J, Matrix((names,)))))
     blocks.append(Fitting(NamedMatrix((_J,), written), (together,)))
-    return Chapter("Velocity", (*blocks, *_statics(found, written)))
+    loads = _statics(found, written) if statics else ()
+    return Chapter("Velocity", (*blocks, *loads))
 
 
 def readable_jacobian(style: Style, start: Frame, end: Frame) -> GeometricJacobian:

@@ -37,6 +37,11 @@ class Shorthand:
         shorthand.usable = False
         return shorthand
 
+    @property
+    def variables(self) -> tuple[Symbol, ...]:
+        """The revolute joint variables, in chain order."""
+        return tuple(self._numbers)
+
     def number(self, variable: Symbol) -> int:
         """Return the number that stands for a revolute joint variable."""
         return self._numbers[variable]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from typing import Any
 
+from symdh.derivation.inverse import Solved
+from symdh.kinematics.inverse.branches import Branches, Branching, branches_of
 from symdh.kinematics.inverse.inverse import InverseKinematics, Method
 from symdh.kinematics.inverse.judge import Answer
 from symdh.kinematics.inverse.pool import Source
@@ -14,18 +15,17 @@ from symdh.notation import Notation, Shorthand
 from symdh.render.plain_math import PlainWriter
 
 
-def inverse_json(
-    found: InverseKinematics,
-    goal: Sequence[Sequence[float]] | None = None,
-    answers: Sequence[Answer] | None = None,
-) -> str:
+def inverse_json(found: InverseKinematics, solved: Solved | None = None) -> str:
     """Return the steps of a solution, and the answers for one goal.
 
     ``steps`` hold for each unknown its rule and its equations, expressions that are zero; names
-    such as ``e_13`` are defined by the steps whose rule is names for known parts. Angles are
-    radians.
+    such as ``e_13`` are defined by the steps whose rule is names for known parts. ``branches`` of
+    a step are the names of its values, in their order unless that depends on the goal or on the
+    steps before; each solution has its own. Angles are radians.
     """
     form = found.form
+    branches = None if form is None else branches_of(form, solved.values if solved else None)
+    named = branches if found.method is Method.CLOSED_FORM else None
     content: dict[str, Any] = {
         "robot": found.robot.name,
         "variables": [variable.name for variable in found.robot.variables],
@@ -36,14 +36,14 @@ def inverse_json(
         "most_solutions": form.most_solutions
         if form is not None and found.method is Method.CLOSED_FORM
         else None,
-        "steps": [] if form is None else _steps(form),
-        "goal": None if goal is None else [list(map(float, row)) for row in goal[:3]],
-        "solutions": None if answers is None else [_answer(found, each) for each in answers],
+        "steps": [] if form is None or branches is None else _steps(form, branches),
+        "goal": None if solved is None else [list(map(float, row)) for row in solved.goal[:3]],
+        "solutions": None if solved is None else [_answer(named, each) for each in solved.answers],
     }
     return json.dumps(content, indent=2, ensure_ascii=False)
 
 
-def _steps(form: ClosedForm) -> list[dict[str, Any]]:
+def _steps(form: ClosedForm, branches: Branches) -> list[dict[str, Any]]:
     robot = form.arm.robot
     notation = Notation(robot, Shorthand.none(robot), degrees=False)
     plain = PlainWriter()
@@ -58,7 +58,7 @@ def _steps(form: ClosedForm) -> list[dict[str, Any]]:
         return {
             "unknown": plain.text(notation.write(form.ring.unknown_expression(step.unknown))),
             "rule": step.rule.value,
-            "branches": list(form.branch_names.get(step.unknown, ())),
+            "branches": _names(branches.of(step.unknown)),
             "from": [_source(used.equation.source) for used in step.equations],
             "equations": [text(used.element) for used in step.equations],
         }
@@ -76,16 +76,20 @@ def _source(source: Source) -> dict[str, Any]:
     }
 
 
-def _answer(found: InverseKinematics, answer: Answer) -> dict[str, Any]:
-    names: list[str] = []
-    if found.form is not None and found.method is Method.CLOSED_FORM and answer.branches:
-        names = [
-            found.form.branch_names[step.unknown][branch]
-            for step, branch in zip(found.form.branching, answer.branches, strict=True)
-        ]
+def _names(branching: Branching | None) -> list[str]:
+    """Return the names of a step's values; of a feature where they may come in either order."""
+    if branching is None:
+        return []
+    return list(branching.names or (branching.feature.names if branching.feature else ()))
+
+
+def _answer(branches: Branches | None, answer: Answer) -> dict[str, Any]:
+    names: tuple[str, ...] = ()
+    if branches is not None and answer.branches:
+        names = branches.names(answer.branches, answer.q)
     return {
         "q": list(answer.q),
-        "branches": names,
+        "branches": list(names),
         "free": [variable.name for variable in answer.free],
         "error": answer.error,
         "within_limits": answer.within_limits,

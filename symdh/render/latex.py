@@ -6,16 +6,17 @@ from symdh._version import __version__
 from symdh.derivation.blocks import (
     Chapter,
     Document,
+    Figure,
 )
 from symdh.derivation.style import Naming, Style
 from symdh.kinematics.forward import transform
 from symdh.kinematics.frame import Frame
 from symdh.notation.nodes import Equation
-from symdh.render.environment import latex_environment
 from symdh.render.latex_math import LatexWriter
 from symdh.render.latex_text import latex_text
 from symdh.render.layout import Layout
 from symdh.robot import Robot
+from symdh.templating import render
 
 PAPERS = {"a4": "a4paper", "letter": "letterpaper"}
 
@@ -39,15 +40,15 @@ def render_latex(
     -------
     str
         Compiles with pdflatex and the packages amsmath, mathtools, booktabs, geometry, lmodern
-        and hyperref.
+        and hyperref, and tikz where there is a drawing.
     """
     layout = _layout()
-    template = latex_environment().get_template(
-        "fragment.tex.jinja" if fragment else "document.tex.jinja"
-    )
-    return template.render(
+    return render(
+        "latex/fragment.tex.jinja" if fragment else "latex/document.tex.jinja",
         title=latex_text(document.title),
         subtitle=layout.inline(document.subtitle),
+        sheet=document.sheet,
+        preface=[item for block in document.preface for item in layout.items(block)],
         chapters=[
             (
                 latex_text(chapter.title),
@@ -57,6 +58,7 @@ def render_latex(
         ],
         paper=PAPERS[paper],
         preamble=preamble.strip(),
+        drawn=any(isinstance(block, Figure) for block in document.blocks),
         version=__version__,
     )
 
@@ -65,7 +67,7 @@ def render_chapter(chapter: Chapter) -> str:
     """Write the blocks of one chapter as LaTeX to paste, without its heading."""
     layout = _layout()
     items = [item for block in chapter.blocks for item in layout.items(block)]
-    text = latex_environment().get_template("chapter.tex.jinja").render(items=items)
+    text = render("latex/chapter.tex.jinja", items=items)
     return text.strip() + "\n"
 
 

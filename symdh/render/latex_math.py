@@ -31,6 +31,7 @@ from symdh.notation.nodes import (
     leaves,
 )
 from symdh.notation.numbers import decimal
+from symdh.render.latex_text import latex_text
 from symdh.robot import MotionKind
 
 # Advance widths at 10.95 pt, read off the fonts with \the\wd.
@@ -55,6 +56,7 @@ _THIN, _QUAD = 1.83, 10.95
 _SCRIPT = 0.78
 _COLUMN_GAP, _MATRIX_BRACKETS = 10.0, 11.8
 _TRIGONOMETRIC = ("sin", "cos", "tan")
+_PAIR = "ij"  # two running indices, not a word
 _FUNCTION_NAMES = {
     **{name: "\\" + name for name in _TRIGONOMETRIC},
     **{"a" + name: r"\arc" + name for name in _TRIGONOMETRIC},
@@ -62,7 +64,19 @@ _FUNCTION_NAMES = {
 
 
 class LatexWriter(MathWriter):
-    """Writes formulas in LaTeX."""
+    """Writes formulas in LaTeX.
+
+    Attributes
+    ----------
+    quad, qquad : str
+        Spaces of one and of two widths of the font's size.
+    """
+
+    quad, qquad = r"\quad", r"\qquad"
+
+    def remark(self, text: str) -> str:
+        """Return a short text beside a formula, in small print."""
+        return rf"\text{{\footnotesize {latex_text(text)}}}"
 
     def quantity(self, node: Number | Rounded | Degrees | Unit | Pi) -> Piece:
         """Return a number, an angle in degrees, a unit or pi."""
@@ -173,8 +187,7 @@ class LatexWriter(MathWriter):
         width = 5.3 * len(function) + 2 * _THIN
         inner = self.separated(arguments, Piece(",", 5.0))
         whole = total_width(inner)
-        first = arguments[0]
-        if function in _TRIGONOMETRIC and _stands_alone(first):
+        if is_bare(function, arguments[0]):
             return [Piece(f"{name} {joined(inner)}", width + whole)]
         return [Piece(f"{name}({joined(inner)})", width + whole + 2 * _BRACKET)]
 
@@ -229,8 +242,10 @@ class LatexWriter(MathWriter):
         return Piece(r"\, ", _THIN)
 
 
-def _stands_alone(argument: Node) -> bool:
-    """Say whether an argument is read as one without brackets."""
+def is_bare(function: str, argument: Node) -> bool:
+    """Say whether an argument follows its function without brackets."""
+    if function not in _TRIGONOMETRIC:
+        return False
     match argument:
         case Product(factors=(Number(), Name() | Generic() | Pi())):
             return True
@@ -260,12 +275,14 @@ def _letter(letter: str) -> str:
     return escaped if len(letter) == 1 else rf"\mathit{{{escaped}}}"
 
 
+def is_word(part: str) -> bool:
+    """Say whether a part of a subscript is a word, to be printed upright."""
+    return len(part) > 1 and part.isalpha() and part != _PAIR
+
+
 def _script(index: str) -> str:
     """Return a subscript: words upright, single letters and numbers as mathematics."""
-    parts = [
-        rf"\mathrm{{{part}}}" if len(part) > 1 and part.isalpha() else part
-        for part in index.split(",")
-    ]
+    parts = [rf"\mathrm{{{part}}}" if is_word(part) else part for part in index.split(",")]
     return ",".join(parts).replace("_", r"\_")
 
 

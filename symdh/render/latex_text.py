@@ -67,6 +67,11 @@ def _character(character: str) -> str:
         return character
     if character.isspace():
         return " "
+    return plain_letter(character)
+
+
+def plain_letter(character: str) -> str:
+    """Return an ASCII letter or digit in place of one with marks, else the character's code."""
     base = unicodedata.normalize("NFKD", character)[0]
     if ord(base) < 128 and base.isalnum():
         return base

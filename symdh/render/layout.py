@@ -1,7 +1,8 @@
 """Blocks -> items that a template lays out, decided by the widths of their formulas.
 
-Paper and web page share this: both print LaTeX formulas, the page through
-KaTeX. They differ in how running text is escaped and how a formula stands in it.
+Paper and web page share this: all print in Computer Modern, so what fits is the same. They differ
+in how formulas are spelt (the page has LaTeX too, for KaTeX), how running text is escaped and how
+a formula stands in it.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from symdh.derivation.blocks import (
     Entries,
     EntryStep,
     EntrySteps,
+    Figure,
     Fitting,
     MatrixRow,
     NamedMatrix,
@@ -23,19 +25,23 @@ from symdh.derivation.blocks import (
     ParameterTable,
     PoseResult,
     ProductResult,
+    Question,
     Text,
 )
+from symdh.derivation.drawing.shapes import Drawing
 from symdh.notation import break_lines, joined
 from symdh.notation.nodes import Equation, Node
 from symdh.notation.pieces import Pieces, total_width
+from symdh.render.drawing.tikz import render_tikz
 from symdh.render.entries import named_entries
 from symdh.render.latex_math import LatexWriter
-from symdh.render.latex_text import latex_text
 
 #: The text is 160 mm wide on A4 and on letter paper; estimates keep a margin of 6 %.
 LINE = 0.94 * 455.2
 _GAP = 22.0  # \qquad between matrices in a row
 _INDENT = 22.0  # \qquad before a continued line
+#: So many lines of one display are not parted by the end of a page.
+_FEW = 4
 _REASON_GAP = 11.0
 _TABLE_ROWS = 40  # of a parameter table on one page
 
@@ -69,13 +75,24 @@ class Layout:
     escape : callable
         Makes running text safe for the output.
     inline_math : callable
-        Puts a LaTeX formula into running text.
+        Puts a formula into running text.
+    math : LatexWriter, optional
+        Spells the formulas; by default in LaTeX.
+    picture : callable, optional
+        Writes a drawing; by default as TikZ.
     """
 
-    def __init__(self, escape: Callable[[str], str], inline_math: Callable[[str], str]) -> None:
+    def __init__(
+        self,
+        escape: Callable[[str], str],
+        inline_math: Callable[[str], str],
+        math: LatexWriter | None = None,
+        picture: Callable[[Drawing], str] = render_tikz,
+    ) -> None:
         self._escape = escape
         self._inline_math = inline_math
-        self._math = LatexWriter()
+        self._math = math or LatexWriter()
+        self._picture = picture
 
     def inline(self, content: Text) -> str:
         """Return text with formulas in it."""
@@ -103,7 +120,7 @@ class Layout:
             case MatrixRow(matrices=matrices):
                 return [Item("displays", list(self._packed(matrices)))]
             case EntrySteps(entries=steps):
-                return [Item("lines", self._steps(steps))]
+                return [Item("lines", _together(self._steps(steps)))]
             case ProductResult():
                 return self._product(block)
             case Entries(groups=groups):
@@ -116,6 +133,27 @@ class Layout:
                 matrix = [self._named_matrix(whole)] if self._fits(whole) else []
                 told = Item("paragraph", self.inline(explanation))
                 return [*matrix, told, self._entries(entries.groups)]
+            case Question():
+                return self._question(block)
+            case Figure(drawing=drawing):
+                caption = self.inline(drawing.caption)
+                return [Item("figure", {"picture": self._picture(drawing), "caption": caption})]
+
+    def _question(self, block: Question) -> list[Item]:
+        """Return a question with its answer, or with room for one."""
+        question = Item("question", self.inline(block.text))
+        if block.answer is not None:
+            solved = [item for part in block.answer for item in self.items(part)]
+            return [question, Item("solution", None), *solved]
+        room = block.room
+        label = "" if room.label is None else self._math.text(room.label) + " ="
+        data = {
+            "label": label,
+            "lines": room.lines,
+            "brackets": room.brackets,
+            "columns": self._cells(room.columns),
+        }
+        return [question, Item("room", data)]
 
     def _tables(self, block: ParameterTable) -> Iterator[Item]:
         """Yield the table in parts that fit on a page, the notes below the last."""
@@ -162,7 +200,7 @@ class Layout:
             return Item("displays", [self._math.text(whole)])
         matrix = joined([self._math.equals(), *self._math.matrix(block.matrix)])
         names = self._names(block.names)
-        return Item("lines", [*names, Line("", r"\quad" + matrix, tied=True)])
+        return Item("lines", [*names, Line("", self._math.quad + matrix, tied=True)])
 
     def _names(self, names: Sequence[Node]) -> list[Line]:
         """Return what a matrix is equal to, broken between transforms where that is needed."""
@@ -204,12 +242,12 @@ class Layout:
             whole = Equation((*block.names, block.matrix))
             width = self._math.width(whole)
             if shown and used + _GAP + width > LINE:
-                yield r" \qquad ".join(shown)
+                yield f" {self._math.qquad} ".join(shown)
                 shown, used = [], 0.0
             used += width + (_GAP if shown else 0)
             shown.append(self._math.text(whole))
         if shown:
-            yield r" \qquad ".join(shown)
+            yield f" {self._math.qquad} ".join(shown)
 
     def _entry(self, step: EntryStep) -> list[Line]:
         """Return an entry's forms as aligned lines, the identity's name behind the last."""
@@ -226,18 +264,18 @@ class Layout:
         for form in forms:
             lines += self._broken("" if lines else left, form, room)
         if reason:
-            note = rf"\quad \text{{\footnotesize {latex_text(reason)}}}"
+            note = f"{self._math.quad} {self._math.remark(reason)}"
             last = lines[-1]
             if total_width(forms[-1]) + beside <= room:
                 lines[-1] = replace(last, right=last.right + note)
             else:
-                lines.append(Line("", r"\qquad" + note))
+                lines.append(Line("", self._math.qquad + note))
         return [lines[0], *(replace(line, tied=True) for line in lines[1:])]
 
     def _broken(self, left: str, pieces: Pieces, room: float) -> list[Line]:
         broken = [joined(line) for line in break_lines(pieces, room, _INDENT)]
         first = Line(left, broken[0])
-        return [first, *(Line("", r"\qquad" + text) for text in broken[1:])]
+        return [first, *(Line("", self._math.qquad + text) for text in broken[1:])]
 
     def _entries(self, groups: Sequence[Sequence[EntryStep]]) -> Item:
         """Return groups side by side where they fit, else below each other."""
@@ -255,11 +293,15 @@ class Layout:
         return Item("lines", lines)
 
     def _side_by_side(self, groups: Sequence[Sequence[EntryStep]]) -> dict[str, object]:
-        rows = []
-        for steps in zip(*groups, strict=True):
-            cells = [
-                f"{self._math.text(step.name)} &= {self._math.text(step.forms[-1])}"
-                for step in steps
-            ]
-            rows.append(r" &\qquad ".join(cells))
+        rows = [
+            [Line(self._math.text(s.name), f"= {self._math.text(s.forms[-1])}") for s in steps]
+            for steps in zip(*groups, strict=True)
+        ]
         return {"count": len(groups), "rows": rows}
+
+
+def _together(lines: list[Line]) -> list[Line]:
+    """Keep a few lines on one page."""
+    if len(lines) > _FEW:
+        return lines
+    return [*lines[:1], *(replace(line, tied=True) for line in lines[1:])]

@@ -11,10 +11,13 @@ from symdh._version import __version__
 from symdh.errors import LimitError
 from symdh.notation.numbers import decimal
 from symdh.notation.writing import is_decimal
-from symdh.robot import Joint, JointType, Motion, MotionKind, Robot, in_name_order
+from symdh.robot import AngleUnit, Joint, JointType, Motion, MotionKind, Robot, in_name_order
 from symdh.table import ANGLE, symbol_dimension
 from symdh.table.lexer import MAX_EXPRESSION
 from symdh.table.quantity import MAX_BITS
+
+MARK = f"# written by symdh {__version__}"
+"""The first line of a table, by which symdh knows that it may be written anew."""
 
 _QUOTED = set(",[]{}:#&*!|>'\"%@`")
 _MAX_DIGITS = 20
@@ -39,8 +42,14 @@ def table_yaml(robot: Robot, remarks: Iterable[str] = ()) -> str:
     LimitError
         When an expression is too long for a table.
     """
-    lines = [f"# written by symdh {__version__}", *(f"# {remark}" for remark in remarks)]
-    lines.append(f"name: {robot.name}")
+    lines = [MARK, *(f"# {remark}" for remark in remarks), *first_settings(robot), "joints:"]
+    lines += [f"  - {{{_joint(joint, robot.units.angle)}}}" for joint in robot.joints]
+    return "\n".join([*lines, *last_settings(robot)]) + "\n"
+
+
+def first_settings(robot: Robot) -> list[str]:
+    """Write the keys that stand before the rows of a table, each on one line."""
+    lines = [f"name: {robot.name}"]
     if robot.title:
         lines.append(f"title: {_single_quoted(robot.title)}")
     lines.append(f"convention: {robot.convention.value}")
@@ -48,24 +57,29 @@ def table_yaml(robot: Robot, remarks: Iterable[str] = ()) -> str:
     given = ", ".join(f"{name}: {unit.value}" for name, unit in units.items() if unit)
     if given:
         lines.append(f"units: {{{given}}}")
-    lines.append("joints:")
-    lines += [f"  - {{{_joint(joint)}}}" for joint in robot.joints]
+    return lines
+
+
+def last_settings(robot: Robot) -> list[str]:
+    """Write the keys that stand after the rows of a table, each on one line."""
+    lines = []
+    unit = robot.units.angle
     for key, word in (("base", robot.base), ("tool", robot.tool)):
         if word:
-            lines.append(f"{key}: [{', '.join(_motion(motion) for motion in word)}]")
+            lines.append(f"{key}: [{', '.join(_motion(motion, unit) for motion in word)}]")
     if robot.values:
         lines.append(f"values: {{{_values(robot)}}}")
     if robot.limits:
         lines.append(f"limits: {{{_limits(robot)}}}")
-    return "\n".join(lines) + "\n"
+    return lines
 
 
-def _joint(joint: Joint) -> str:
+def _joint(joint: Joint, unit: AngleUnit | None) -> str:
     cells = {
-        "theta": angle_text(joint.theta),
-        "d": length_text(joint.d),
-        "a": length_text(joint.a),
-        "alpha": angle_text(joint.alpha),
+        "theta": angle_text(joint.theta, unit),
+        "d": length_text(joint.d, unit),
+        "a": length_text(joint.a, unit),
+        "alpha": angle_text(joint.alpha, unit),
     }
     if not _reads_as(joint):
         cells["type"] = joint.type.value
@@ -88,9 +102,9 @@ def _finds_variable(joint: Joint) -> bool:
     return bool(home.free_symbols == {joint.variable})
 
 
-def _motion(motion: Motion) -> str:
+def _motion(motion: Motion, unit: AngleUnit | None) -> str:
     turning = motion.kind is MotionKind.ROTATION
-    amount = angle_text(motion.amount) if turning else length_text(motion.amount)
+    amount = angle_text(motion.amount, unit) if turning else length_text(motion.amount, unit)
     return _plain(f"{motion.kind.value}{motion.axis.name.lower()}({amount})")
 
 
@@ -115,14 +129,22 @@ def _limits(robot: Robot) -> str:
     return ", ".join(entries)
 
 
-def length_text(expression: Expr) -> str:
-    """Write a length, or a plain number."""
+def length_text(expression: Expr, unit: AngleUnit | None = None) -> str:
+    """Write a length, or a plain number; for `unit` see `angle_text`."""
     _check_numbers(expression)
-    return _checked(_Printer().doprint(expression))
+    return _checked(_Printer(unit).doprint(expression))
 
 
-def angle_text(expression: Expr) -> str:
-    """Write an angle; its constants carry their units, so that no table reads them otherwise."""
+def angle_text(expression: Expr, unit: AngleUnit | None = None) -> str:
+    """Write an angle; its constants carry their units, so that no table reads them otherwise.
+
+    Parameters
+    ----------
+    expression : Expr
+        Radians.
+    unit : AngleUnit or None
+        What a bare number means in the table.
+    """
     _check_numbers(expression)
     terms = Add.make_args(expression)
     named = sorted((t for t in terms if t.free_symbols), key=_name_key)
@@ -130,7 +152,7 @@ def angle_text(expression: Expr) -> str:
     text = ""
     for term in (*named, *constants):
         minus = term.could_extract_minus_sign()
-        written = _angle_term(-term if minus else term)
+        written = _angle_term(-term if minus else term, unit)
         if text:
             text += f" - {written}" if minus else f" + {written}"
         else:
@@ -138,7 +160,7 @@ def angle_text(expression: Expr) -> str:
     return _checked(text)
 
 
-def _angle_term(term: Expr) -> str:
+def _angle_term(term: Expr, unit: AngleUnit | None) -> str:
     if term == 0:
         return "0"
     turns = term / pi
@@ -146,8 +168,14 @@ def _angle_term(term: Expr) -> str:
         degrees = turns * 180
         return f"{decimal(degrees)} deg" if _is_short_decimal(degrees) else _in_pi(turns)
     if term.is_Rational:
-        return f"{decimal(term)} rad" if _is_short_decimal(term) else f"({term.p}/{term.q}) rad"
-    return str(_Printer().doprint(term))
+        return _in_radians(term)
+    return str(_AnglePrinter(unit).doprint(term))
+
+
+def _in_radians(number: Rational) -> str:
+    if _is_short_decimal(number):
+        return f"{decimal(number)} rad"
+    return f"({number.p}/{number.q}) rad"
 
 
 def _in_pi(turns: Rational) -> str:
@@ -166,6 +194,10 @@ def _name_key(term: Expr) -> str:
 class _Printer(StrPrinter):  # type: ignore[misc]
     """sympy's own spelling, where the parser of tables reads it alike."""
 
+    def __init__(self, unit: AngleUnit | None) -> None:
+        super().__init__()
+        self._unit = unit
+
     def _print_Rational(self, expression: Rational) -> str:
         if _is_short_decimal(expression):
             return decimal(expression)
@@ -175,9 +207,28 @@ class _Printer(StrPrinter):  # type: ignore[misc]
         return f"abs({self._print(expression.args[0])})"
 
     def _of_an_angle(self, expression: Expr) -> str:
-        return f"{type(expression).__name__}({angle_text(expression.args[0])})"
+        return f"{type(expression).__name__}({angle_text(expression.args[0], self._unit)})"
 
     _print_sin = _print_cos = _print_tan = _of_an_angle
+
+
+class _AnglePrinter(_Printer):
+    """Spells a product that is an angle: a number in a sum inside it is in radians.
+
+    A table in radians needs to say so nowhere, and there the number may be a factor; any other
+    table refuses a bare number in such a place.
+    """
+
+    def _print_Add(self, expression: Expr, order: str | None = None) -> str:
+        number, rest = expression.as_coeff_Add()
+        if number == 0 or self._unit is AngleUnit.RADIAN:
+            return str(super()._print_Add(expression, order))
+        sign = "-" if number.is_negative else "+"
+        return f"{self._print(rest)} {sign} {_in_radians(abs(number))}"
+
+    def _print_Function(self, expression: Expr) -> str:
+        # What other functions are given is no angle: a ratio, or lengths.
+        return str(_Printer(self._unit).doprint(expression))
 
 
 def _check_numbers(expression: Expr) -> None:

@@ -12,6 +12,7 @@ from symdh.derivation.blocks import (
     Entries,
     EntryStep,
     EntrySteps,
+    Figure,
     Fitting,
     MatrixRow,
     NamedMatrix,
@@ -129,6 +130,8 @@ def _blocks(blocks: Iterable[Block], width: int) -> list[str]:
                 parts += [_named_matrix(matrix, width) for matrix in matrices]
             case ParameterTable():
                 parts.append(_table(block, width))
+            case Figure():
+                pass  # a terminal has no room for it; symdh draw makes it
             case _:
                 raise TypeError(f"no terminal text for {type(block).__name__}")
     return parts

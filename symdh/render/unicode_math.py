@@ -116,7 +116,8 @@ class UnicodeWriter(TextWriter):
 
     def power(self, base: list[Piece], exponent: str, node: Node) -> list[Piece]:
         """Return a power; whole exponents are raised."""
-        raised = _raised(exponent) if exponent.isdigit() else f"^({exponent})"
+        whole = exponent.removeprefix("-").isdigit()
+        raised = _raised(exponent) if whole else f"^({exponent})"
         return [*base, text_piece(raised)]
 
     def root(self, radicand: list[Piece]) -> list[Piece]:

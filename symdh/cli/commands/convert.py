@@ -54,6 +54,7 @@ _LONG = 15
     "such in a URDF file, in radians and metres by metre; 0 takes every angle at its word.",
 )
 @options.file_option("standard output")
+@options.templates_option
 @options.force_option
 def convert(
     table: str,
@@ -87,8 +88,11 @@ def convert(
 
 
 def _is_urdf(source: Source) -> bool:
-    """Tell URDF from a table by its first character: a table never starts with a bracket."""
-    return source.text.lstrip().startswith("<") or source.filename.lower().endswith(".urdf")
+    """Tell URDF from a table by its first character: only in Markdown a table may have it too."""
+    name = source.filename.lower()
+    if name.endswith((".md", ".markdown")):
+        return False
+    return source.text.lstrip().startswith("<") or name.endswith(".urdf")
 
 
 def _robot_of_table(source: Source, wanted: str) -> Robot:

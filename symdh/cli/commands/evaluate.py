@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import click
 
 from symdh.cli import arguments, console, options, tables
-
-if TYPE_CHECKING:
-    pass
 
 
 @click.command(
@@ -20,22 +15,9 @@ if TYPE_CHECKING:
     ),
 )
 @options.table_argument
-@click.option(
-    "--set",
-    "settings",
-    metavar="NAME=VALUE",
-    multiple=True,
-    help="Value of a symbol, with or without its unit; wins over the table's own. Repeatable.",
-)
+@options.set_option("Value of a symbol, with or without its unit; wins over the table's own.")
 @options.frame_options
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(["text", "json"]),
-    default="text",
-    show_default=True,
-    help="Aligned numbers to read, or JSON for a program.",
-)
+@options.format_option("text", "json", what="Aligned numbers to read, or JSON for a program.")
 def evaluate(
     table: str, settings: tuple[str, ...], start: str | None, end: str | None, form: str
 ) -> None:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
         "symdh frames scara_axes.yaml -o scara.yaml",
         "symdh frames scara_axes.yaml -o - | symdh derive -",
         "symdh frames scara_axes.yaml --convention modified --format latex",
+        "symdh frames scara_axes.yaml --format html > scara.html",
     )
 )
 @click.argument("axes", type=click.Path(allow_dash=True, readable=False))
@@ -25,13 +26,13 @@ if TYPE_CHECKING:
     type=click.Choice(["standard", "modified"]),
     help="Rules to follow. Default: what the file says, else standard.",
 )
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(["text", "latex"]),
-    default="text",
-    show_default=True,
-    help="How the story of the frames is printed: Unicode to read, or a LaTeX document.",
+@options.format_option(
+    "text",
+    "latex",
+    "html",
+    "json",
+    what="How the story of the frames is printed: Unicode to read, a LaTeX document, a web page, "
+    "or JSON for a program.",
 )
 @click.option(
     "-o",
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="Write the table; - prints the table and nothing else. Default: no table is written.",
 )
+@options.templates_option
 @options.force_option
 def frames(axes: str, convention: str | None, form: str, output: str | None, force: bool) -> None:
     """Assign frames to joint axes and give the table.
@@ -83,6 +85,10 @@ def _assignment(axes: str, convention: str | None) -> Assignment:
 
 
 def _story(found: Assignment, form: str) -> str:
+    if form == "json":
+        from symdh.render.frames_json import frames_json
+
+        return frames_json(found)
     from symdh.derivation.frames import frames_document
 
     document = frames_document(found)
@@ -90,6 +96,10 @@ def _story(found: Assignment, form: str) -> str:
         from symdh.render.latex import render_latex
 
         return render_latex(document)
+    if form == "html":
+        from symdh.render.page.page import render_page
+
+        return render_page(document, found.robot)
     from symdh.render.terminal import render_chapters
 
     return render_chapters(document.chapters, width=console.width())

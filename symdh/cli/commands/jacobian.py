@@ -11,13 +11,8 @@ from symdh.cli import arguments, console, options, patience, tables
 if TYPE_CHECKING:
     from symdh.derivation.blocks import Chapter
 
-_FORMAT = click.option(
-    "--format",
-    "form",
-    type=click.Choice(["text", "latex", "json"]),
-    default="text",
-    show_default=True,
-    help="Unicode to read, LaTeX to paste, or JSON for a program.",
+_FORMAT = options.format_option(
+    "text", "latex", "json", what="Unicode to read, LaTeX to paste, or JSON for a program."
 )
 _OF = click.option(
     "--of", metavar="FRAME", help="Frame that moves: base, 0 .. n or tool. Default: tool."

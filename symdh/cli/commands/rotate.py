@@ -11,7 +11,10 @@ import click
 from symdh.cli import arguments, console, files, options, patience, tables
 
 if TYPE_CHECKING:
+    from sympy import Expr
+
     from symdh.kinematics.rotation import EulerSequence, RotationResult
+    from symdh.robot import Units
     from symdh.table.rotations import RotationSheet
 
 
@@ -32,13 +35,7 @@ if TYPE_CHECKING:
     help="Take the rotation from a Denavit-Hartenberg table.",
 )
 @options.frame_options
-@click.option(
-    "--set",
-    "settings",
-    metavar="NAME=VALUE",
-    multiple=True,
-    help="Value of a symbol, with its unit. Repeatable.",
-)
+@options.set_option("Value of a symbol, with its unit.")
 @click.option("--symbolic", is_flag=True, help="Leave symbols without numbers: formulas alone.")
 @click.option(
     "--euler",
@@ -56,15 +53,11 @@ if TYPE_CHECKING:
     metavar="NUMBER",
     help="By how much the columns of a matrix may miss being orthonormal.",
 )
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(["text", "latex", "json"]),
-    default="text",
-    show_default=True,
-    help="Unicode to read, a LaTeX document, or JSON for a program.",
+@options.format_option(
+    "text", "latex", "json", what="Unicode to read, a LaTeX document, or JSON for a program."
 )
 @options.file_option("standard output")
+@options.templates_option
 @options.force_option
 def rotate(
     rotations: str | None,
@@ -119,7 +112,6 @@ def _sheet(rotations: str | None, matrix: str | None, point: str | None) -> Rota
     from symdh.table.rotations import (
         RotationSheet,
         parse_matrix,
-        parse_point,
         parse_rotations,
         read_rotation_sheet,
     )
@@ -134,7 +126,13 @@ def _sheet(rotations: str | None, matrix: str | None, point: str | None) -> Rota
     console.show_diagnostics(sheet.warnings)
     if point is None:
         return sheet
-    return replace(sheet, point=parse_point(arguments.as_utf8(point), sheet.units))
+    return replace(sheet, point=_point(point, sheet.units))
+
+
+def _point(text: str, units: Units) -> tuple[Expr, Expr, Expr]:
+    from symdh.table import parse_point
+
+    return parse_point(arguments.as_utf8(text), units, "--point")
 
 
 def _from_sheet(
@@ -164,11 +162,10 @@ def _from_table(
 ) -> RotationResult:
     """Take the orientation between two frames of an arm."""
     from symdh.kinematics.rotation import of_arm
-    from symdh.table.rotations import parse_point
 
     robot = tables.read_robot(table)
     first, last = tables.frames_between(robot, start, end)
-    followed = None if point is None else parse_point(arguments.as_utf8(point), robot.units)
+    followed = None if point is None else _point(point, robot.units)
     values = arguments.assignment(robot, settings)
     robot = replace(robot, values={**robot.values, **values})
     return of_arm(robot, first, last, values, followed, symbolic)

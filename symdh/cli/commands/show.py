@@ -15,13 +15,8 @@ from symdh.cli import console, options, tables
 @options.table_argument
 @options.frame_options
 @options.notation_option
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(["text", "latex", "json"]),
-    default="text",
-    show_default=True,
-    help="Unicode to read, LaTeX to paste, or JSON for a program.",
+@options.format_option(
+    "text", "latex", "json", what="Unicode to read, LaTeX to paste, or JSON for a program."
 )
 def show(table: str, start: str | None, end: str | None, notation: str, form: str) -> None:
     """Print the exact pose of one frame in another.

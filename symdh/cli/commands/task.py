@@ -29,22 +29,12 @@ if TYPE_CHECKING:
     "Default: what fits the arm.",
 )
 @click.option("--numeric", is_flag=True, help="Numbers for the values that the table gives.")
-@click.option(
-    "--set",
-    "settings",
-    metavar="NAME=VALUE",
-    multiple=True,
-    help="Value of a symbol, with or without its unit; asks for numbers. Repeatable.",
-)
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(["text", "latex", "json"]),
-    default="text",
-    show_default=True,
-    help="Unicode to read, a LaTeX document, or JSON for a program.",
+@options.set_option("Value of a symbol, with or without its unit; asks for numbers.")
+@options.format_option(
+    "text", "latex", "json", what="Unicode to read, a LaTeX document, or JSON for a program."
 )
 @options.file_option("standard output")
+@options.templates_option
 @options.force_option
 def task(
     table: str,

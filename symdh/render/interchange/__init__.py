@@ -45,8 +45,8 @@ class Interchange:
 FORMATS = (
     Interchange("yaml", "the table as symdh reads it", "table", "table_yaml"),
     Interchange("json", "the same as JSON", "table", "table_json"),
-    Interchange("csv", "the rows alone", "rows", "table_csv"),
-    Interchange("markdown", "a table to read", "rows", "table_markdown"),
+    Interchange("csv", "the table for a spreadsheet", "rows", "table_csv"),
+    Interchange("markdown", "the table to read and to print", "rows", "table_markdown"),
     Interchange("latex-table", "a table to \\input", "rows", "table_latex"),
     Interchange("urdf", "links and joints without shapes", "urdf", "urdf"),
     Interchange("rtb", "a DHRobot of the Robotics Toolbox for Python", "rtb", "rtb"),

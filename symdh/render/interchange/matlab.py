@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from sympy import Expr, pi
 
 from symdh._version import __version__
-from symdh.codegen.environment import render
 from symdh.codegen.fingerprint import fingerprint
 from symdh.codegen.names import comment_text, file_stem, words
 from symdh.motion import Word, rotation
@@ -27,6 +26,7 @@ from symdh.render.interchange.numbers import (
     with_pi,
 )
 from symdh.robot import ZERO, Axis, Convention, Joint, JointType, Robot
+from symdh.templating import render
 
 _KEYWORDS = words(
     """

@@ -11,29 +11,29 @@ from symdh.derivation.table import chapter
 from symdh.render.interchange.exported import Exported
 from symdh.render.interchange.table import ORDERS, TableText, table_text
 from symdh.render.latex import render_chapter
+from symdh.render.table_yaml import MARK, first_settings, last_settings
 from symdh.robot import Convention, Robot
 
 _ESCAPED = "\\`*_{}[]<>#|"
 
 
 def table_csv(robot: Robot) -> Exported:
-    """Write the rows as CSV; the header names the columns as books do, alpha_{i-1} say."""
+    """Write a table as CSV, as symdh reads it: the keys of the table in comments, then the rows.
+
+    The header names the columns as books do, alpha_{i-1} say.
+    """
     table = table_text(robot)
     keys = _keys(robot.convention, table)
     stream = StringIO()
+    stream.writelines(f"{line}\n" for line in (MARK, *(f"# {line}" for line in _settings(robot))))
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(_heading(key, robot.convention) for key in keys)
     writer.writerows([row.get(key, "") for key in keys] for row in table.joints)
-    left_out = [key for key in ("base", "tool", "values", "limits") if getattr(table, key)]
-    if not left_out:
-        return Exported(stream.getvalue())
-    return Exported(
-        stream.getvalue(), (f"CSV holds the rows alone; left out: {', '.join(left_out)}",)
-    )
+    return Exported(stream.getvalue())
 
 
 def table_markdown(robot: Robot) -> Exported:
-    """Write the table as Markdown: the rows, and below them what else the table says."""
+    """Write a table as Markdown, as symdh reads it: the keys of the table on top, then the rows."""
     table = table_text(robot)
     keys = _keys(robot.convention, table)
     cells = [["i", *(_heading(key, robot.convention) for key in keys)]]
@@ -41,11 +41,13 @@ def table_markdown(robot: Robot) -> Exported:
         [str(i), *(row.get(key, "") for key in keys)] for i, row in enumerate(table.joints, start=1)
     ]
     escaped = [[_escape(cell, "*|") for cell in row] for row in cells]
-    widths = [max(map(len, column)) for column in zip(*escaped, strict=True)]
+    # A rule of three dashes is one in every dialect.
+    widths = [max(3, *map(len, column)) for column in zip(*escaped, strict=True)]
     lines = [_markdown_row(row, widths) for row in escaped]
     lines.insert(1, _markdown_row(["-" * width for width in widths], widths))
-    head = [f"**{_escape(robot.title or robot.name, _ESCAPED)}**", ""]
-    return Exported("\n".join([*head, *lines, "", *_remarks(table)]) + "\n")
+    head = ["---", MARK, *_settings(robot), "---", ""]
+    title = [f"**{_escape(robot.title or robot.name, _ESCAPED)}**", ""]
+    return Exported("\n".join([*head, *title, *lines]) + "\n")
 
 
 def table_latex(robot: Robot) -> Exported:
@@ -54,6 +56,10 @@ def table_latex(robot: Robot) -> Exported:
     rows = chapter(Style(robot)).blocks[0]
     needs = "% needs \\usepackage{amsmath,booktabs}\n"
     return Exported(needs + render_chapter(Chapter("", (rows,))))
+
+
+def _settings(robot: Robot) -> list[str]:
+    return [*first_settings(robot), *last_settings(robot)]
 
 
 def _keys(convention: Convention, table: TableText) -> list[str]:
@@ -72,23 +78,6 @@ def _heading(key: str, convention: Convention) -> str:
 
 def _markdown_row(cells: list[str], widths: list[int]) -> str:
     return "| " + " | ".join(c.ljust(w) for c, w in zip(cells, widths, strict=True)) + " |"
-
-
-def _remarks(table: TableText) -> list[str]:
-    """Return the rest of the table as a list."""
-    units = ", ".join(f"{key} in {unit}" for key, unit in table.units.items())
-    remarks = [f"Convention: {table.convention}"]
-    if units:
-        remarks.append(f"Units of bare numbers: {units}")
-    for key, word in (("Base", table.base), ("Tool", table.tool)):
-        if word:
-            remarks.append(f"{key}: {' '.join(word)}")
-    if table.values:
-        remarks.append("Values: " + ", ".join(f"{k} = {v}" for k, v in table.values.items()))
-    if table.limits:
-        bounds = (f"{k} from {low} to {high}" for k, (low, high) in table.limits.items())
-        remarks.append("Limits: " + ", ".join(bounds))
-    return [f"- {_escape(remark, '*|')}" for remark in remarks]
 
 
 def _escape(text: str, special: str) -> str:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from sympy import ImmutableMatrix
 
 from symdh._version import __version__
-from symdh.codegen.environment import render
 from symdh.codegen.fingerprint import fingerprint
 from symdh.codegen.names import comment_text, file_stem, words
 from symdh.errors import UnsupportedError
@@ -22,6 +21,7 @@ from symdh.render.interchange.numbers import (
     with_pi,
 )
 from symdh.robot import ZERO, Convention, Joint, JointType, Robot
+from symdh.templating import render
 
 #: Names that the source imports or uses itself.
 _TAKEN = words("DHRobot SE3 PrismaticDH PrismaticMDH RevoluteDH RevoluteMDH links np pi robot")

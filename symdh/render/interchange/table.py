@@ -48,9 +48,9 @@ def table_text(robot: Robot) -> TableText:
         title=robot.title,
         convention=robot.convention.value,
         units={key: unit.value for key, unit in units.items() if unit is not None},
-        joints=[_row(joint, robot.convention) for joint in robot.joints],
-        base=[_motion(motion) for motion in robot.base],
-        tool=[_motion(motion) for motion in robot.tool],
+        joints=[_row(joint, robot) for joint in robot.joints],
+        base=[_motion(motion, robot) for motion in robot.base],
+        tool=[_motion(motion, robot) for motion in robot.tool],
         values=_values(robot),
         limits=_limits(robot),
     )
@@ -66,12 +66,12 @@ def table_json(robot: Robot) -> Exported:
     return Exported(json.dumps(table_text(robot).sections(), indent=2, ensure_ascii=False) + "\n")
 
 
-def _row(joint: Joint, convention: Convention) -> dict[str, str]:
+def _row(joint: Joint, robot: Robot) -> dict[str, str]:
     """Write one row; its type and variable only where they could not be read off it."""
     row = {}
-    for key in ORDERS[convention]:
+    for key in ORDERS[robot.convention]:
         write = angle_text if key in _ANGLES else length_text
-        row[key] = write(getattr(joint, key))
+        row[key] = write(getattr(joint, key), robot.units.angle)
     if joint.type is not _type_read_off(joint):
         row["type"] = joint.type.value
     home = joint.theta if joint.type is JointType.REVOLUTE else joint.d
@@ -86,9 +86,11 @@ def _type_read_off(joint: Joint) -> JointType:
     return JointType.PRISMATIC if joint.d.free_symbols else JointType.FIXED
 
 
-def _motion(motion: Motion) -> str:
+def _motion(motion: Motion, robot: Robot) -> str:
     write = angle_text if motion.kind is MotionKind.ROTATION else length_text
-    return f"{motion.kind.value}{motion.axis.name.lower()}({write(motion.amount)})"
+    return (
+        f"{motion.kind.value}{motion.axis.name.lower()}({write(motion.amount, robot.units.angle)})"
+    )
 
 
 def _values(robot: Robot) -> dict[str, str]:

@@ -12,7 +12,6 @@ from xml.sax.saxutils import quoteattr
 from sympy import Expr
 
 from symdh._version import __version__
-from symdh.codegen.environment import render
 from symdh.codegen.fingerprint import fingerprint
 from symdh.codegen.names import comment_text
 from symdh.kinematics.chain import link_word
@@ -26,6 +25,7 @@ from symdh.render.interchange.numbers import (
     triple,
 )
 from symdh.robot import Axis, Convention, Joint, JointType, Robot
+from symdh.templating import render
 
 BASE, TOOL = "base_link", "tool0"
 

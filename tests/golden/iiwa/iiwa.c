@@ -12,6 +12,195 @@
 #error "iiwa.h and iiwa.c come from different tables: generate both again"
 #endif
 
+/*
+ * Sines and cosines of several angles at once, inlined and without a branch for each: a multiple of
+ * pi/2 is taken off in three parts, which is exact enough without fused multiply-add and stays so
+ * with it; two minimax polynomials do the rest. At most 2 ulp off for |x| <= 100, and 3 ulp up
+ * to 1000000.0 rad in a group.
+ *
+ * Angles that are larger, infinite or NaN go to <math.h>. So do all where the compiler is allowed
+ * to reorder sums (-ffast-math), which would undo the reduction.
+ */
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) \
+    || defined(__INTEL_COMPILER)
+#define iiwa_WIDTH 0
+#elif !defined(__GNUC__) || ((__FLT_EVAL_METHOD__ != 0) && (__FLT_EVAL_METHOD__ != 16))
+#define iiwa_WIDTH 1
+#elif defined(__AVX__)
+#define iiwa_WIDTH 4
+#elif defined(__SSE2__) || defined(__aarch64__) || defined(__VSX__)
+#define iiwa_WIDTH 2
+#else
+#define iiwa_WIDTH 1
+#endif
+
+#if defined(__GNUC__)
+#define iiwa_INLINE __inline__ __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define iiwa_INLINE __forceinline
+#else
+#define iiwa_INLINE inline
+#endif
+
+#if defined(__clang__) && (__clang_major__ >= 12)
+#pragma clang fp reassociate(off)
+#endif
+
+/* Sine and cosine of x + lost, by the library. */
+static void iiwa_library(double x, double lost, double sc[2])
+{
+    const double s = sin(x);
+    const double c = cos(x);
+    const double sl = sin(lost);
+    const double cl = cos(lost);
+
+    sc[0] = (s * cl) + (c * sl);
+    sc[1] = (c * cl) - (s * sl);
+}
+
+#if iiwa_WIDTH > 0
+#if iiwa_WIDTH > 1
+typedef double iiwa_pack __attribute__((vector_size(iiwa_WIDTH * sizeof(double))));
+__extension__ typedef __UINT64_TYPE__ iiwa_bits
+    __attribute__((vector_size(iiwa_WIDTH * sizeof(double))));
+#else
+typedef double iiwa_pack;
+#endif
+
+/* Sine and cosine of x + lost, element by element. */
+static iiwa_INLINE void iiwa_sincos(
+    iiwa_pack x, iiwa_pack lost, iiwa_pack *sine, iiwa_pack *cosine)
+{
+#if iiwa_WIDTH > 1
+    /* Adding and taking off 1.5 * 2^52 rounds to an integer, left in the lowest bits. */
+    const iiwa_pack shifted = (x * 0.6366197723675814) + 6755399441055744.0;
+    const iiwa_bits n = (iiwa_bits)shifted;
+    const iiwa_pack k = shifted - 6755399441055744.0;
+#else
+    /* The offset, a multiple of 4, makes cutting off the fraction rounding, without a branch. */
+    const double shifted = (x * 0.6366197723675814) + 1048576.5;
+    const unsigned int n = (unsigned int)shifted;
+    const double k = (double)n - 1048576.0;
+#endif
+    const iiwa_pack reduced = (x - (k * 1.5707963267341256)) - (k * 6.077100506303966e-11);
+    const iiwa_pack r = reduced - ((k * 2.0222662487959506e-21) - lost);
+    const iiwa_pack z = r * r;
+    const iiwa_pack zz = z * z;
+    const iiwa_pack sp = (-0.1666666666666663 + (z * 0.00833333333332184))
+        + (zz * (-0.00019841269829358525 + (z * 2.7557313538512027e-6)))
+        + ((zz * zz) * (-2.505073438869179e-8 + (z * 1.5895433242910503e-10)));
+    const iiwa_pack cp = (0.0416666666666666 + (z * -0.0013888888888874474))
+        + (zz * (2.4801587289671445e-5 + (z * -2.755731440097008e-7)))
+        + ((zz * zz) * (2.0875729268209167e-9 + (z * -1.1359933328297211e-11)));
+    const iiwa_pack s = r + ((r * z) * sp);
+    const iiwa_pack c = 1.0 - ((0.5 * z) - (zz * cp));
+#if iiwa_WIDTH > 1
+    /* An odd quadrant swaps the two, the sign bits follow. */
+    const iiwa_bits sb = (iiwa_bits)s;
+    const iiwa_bits cb = (iiwa_bits)c;
+    const iiwa_bits swap = (sb ^ cb) & -(n & 1U);
+
+    *sine = (iiwa_pack)((sb ^ swap) ^ ((n & 2U) << 62));
+    *cosine = (iiwa_pack)((cb ^ swap) ^ (((n + 1U) & 2U) << 62));
+#else
+    /* An odd quadrant swaps the two; weights of 0 and 1 choose without a branch. */
+    const unsigned int odd_bit = n & 1U;
+    const unsigned int sign_bit = n & 2U;
+    const unsigned int next_bit = (n + 1U) & 2U;
+    const double odd = (double)odd_bit;
+    const double even = 1.0 - odd;
+    const double sign = 1.0 - (double)sign_bit;
+    const double next = 1.0 - (double)next_bit;
+
+    *sine = sign * ((even * s) + (odd * c));
+    *cosine = next * ((even * c) + (odd * s));
+#endif
+}
+#endif
+
+/* Sines and cosines of two angles, in turn. */
+static iiwa_INLINE void iiwa_sincos2(double x0, double x1, double sc[4])
+{
+#if iiwa_WIDTH > 0
+    if ((fabs(x0) + fabs(x1)) <= 1000000.0) {
+        iiwa_pack s;
+        iiwa_pack c;
+#if iiwa_WIDTH == 4
+        const iiwa_pack x = {x0, x1, x0, x1};
+        const iiwa_pack lost = {0.0, 0.0, 0.0, 0.0};
+
+        iiwa_sincos(x, lost, &s, &c);
+#elif iiwa_WIDTH == 2
+        const iiwa_pack x = {x0, x1};
+        const iiwa_pack lost = {0.0, 0.0};
+
+        iiwa_sincos(x, lost, &s, &c);
+#endif
+#if iiwa_WIDTH > 1
+        sc[0] = s[0];
+        sc[1] = c[0];
+        sc[2] = s[1];
+        sc[3] = c[1];
+#else
+        iiwa_sincos(x0, 0.0, &s, &c);
+        sc[0] = s;
+        sc[1] = c;
+        iiwa_sincos(x1, 0.0, &s, &c);
+        sc[2] = s;
+        sc[3] = c;
+#endif
+    } else
+#endif
+    {
+        /* Not in sc itself: its elements shall stay in registers. */
+        double slow[4];
+        int i;
+
+        iiwa_library(x0, 0.0, &slow[0]);
+        iiwa_library(x1, 0.0, &slow[2]);
+        for (i = 0; i < 4; ++i) {
+            sc[i] = slow[i];
+        }
+    }
+}
+
+/* Sines and cosines of four angles, in turn. */
+static iiwa_INLINE void iiwa_sincos4(double x0, double x1, double x2, double x3, double sc[8])
+{
+#if iiwa_WIDTH == 4
+    if ((fabs(x0) + fabs(x1) + fabs(x2) + fabs(x3)) <= 1000000.0) {
+        iiwa_pack s;
+        iiwa_pack c;
+        const iiwa_pack x = {x0, x1, x2, x3};
+        const iiwa_pack lost = {0.0, 0.0, 0.0, 0.0};
+
+        iiwa_sincos(x, lost, &s, &c);
+        sc[0] = s[0];
+        sc[1] = c[0];
+        sc[2] = s[1];
+        sc[3] = c[1];
+        sc[4] = s[2];
+        sc[5] = c[2];
+        sc[6] = s[3];
+        sc[7] = c[3];
+    } else {
+        double slow[8];
+        int i;
+
+        iiwa_library(x0, 0.0, &slow[0]);
+        iiwa_library(x1, 0.0, &slow[2]);
+        iiwa_library(x2, 0.0, &slow[4]);
+        iiwa_library(x3, 0.0, &slow[6]);
+        for (i = 0; i < 8; ++i) {
+            sc[i] = slow[i];
+        }
+    }
+#else
+    iiwa_sincos2(x0, x1, &sc[0]);
+    iiwa_sincos2(x2, x3, &sc[4]);
+#endif
+}
+
 void iiwa_fk(const double q[7], double T[16])
 {
     const double theta1 = q[0];
@@ -21,64 +210,68 @@ void iiwa_fk(const double q[7], double T[16])
     const double theta5 = q[4];
     const double theta6 = q[5];
     const double theta7 = q[6];
-    const double c1 = cos(theta1);
-    const double s1 = sin(theta1);
-    const double c2 = cos(theta2);
-    const double s2 = sin(theta2);
-    const double c3 = cos(theta3);
-    const double s3 = sin(theta3);
-    const double c4 = cos(theta4);
-    const double s4 = sin(theta4);
-    const double c5 = cos(theta5);
-    const double s5 = sin(theta5);
-    const double c6 = cos(theta6);
-    const double s6 = sin(theta6);
-    const double c7 = cos(theta7);
-    const double s7 = sin(theta7);
+    double sc1[8];
+    iiwa_sincos4(theta1, theta2, theta3, theta4, sc1);
+    const double s1 = sc1[0];
+    const double c1 = sc1[1];
+    const double s2 = sc1[2];
+    const double c2 = sc1[3];
+    const double s3 = sc1[4];
+    const double c3 = sc1[5];
+    const double s4 = sc1[6];
+    const double c4 = sc1[7];
+    double sc5[8];
+    iiwa_sincos4(theta5, theta6, theta7, theta7, sc5);
+    const double s5 = sc5[0];
+    const double c5 = sc5[1];
+    const double s6 = sc5[2];
+    const double c6 = sc5[3];
+    const double s7 = sc5[4];
+    const double c7 = sc5[5];
     const double t1 = 0.126 * s6;
-    const double t2 = 0.4 + 0.126 * c6;
+    const double t2 = 0.4 + (0.126 * c6);
     const double t3 = c5 * t1;
     const double t4 = s5 * t1;
-    const double t5 = c4 * t3 - s4 * t2;
-    const double t6 = 0.4 + (c4 * t2 + s4 * t3);
-    const double t7 = c3 * t5 - s3 * t4;
-    const double t8 = s3 * t5 + c3 * t4;
-    const double t9 = s2 * t6 + c2 * t7;
+    const double t5 = (c4 * t3) - (s4 * t2);
+    const double t6 = 0.4 + ((c4 * t2) + (s4 * t3));
+    const double t7 = (c3 * t5) - (s3 * t4);
+    const double t8 = (s3 * t5) + (c3 * t4);
+    const double t9 = (s2 * t6) + (c2 * t7);
     const double t10 = s6 * s7;
     const double t11 = c6 * s7;
-    const double t12 = c5 * t11 + s5 * c7;
-    const double t13 = c5 * c7 - s5 * t11;
-    const double t14 = c4 * t10 - s4 * t12;
-    const double t15 = s4 * t10 + c4 * t12;
-    const double t16 = c3 * t15 + s3 * t13;
-    const double t17 = c3 * t13 - s3 * t15;
-    const double r32 = c2 * t14 + s2 * t16;
-    const double t18 = s2 * t14 - c2 * t16;
-    const double r12 = c1 * t18 - s1 * t17;
-    const double r22 = s1 * t18 + c1 * t17;
+    const double t12 = (c5 * t11) + (s5 * c7);
+    const double t13 = (c5 * c7) - (s5 * t11);
+    const double t14 = (c4 * t10) - (s4 * t12);
+    const double t15 = (s4 * t10) + (c4 * t12);
+    const double t16 = (c3 * t15) + (s3 * t13);
+    const double t17 = (c3 * t13) - (s3 * t15);
+    const double r32 = (c2 * t14) + (s2 * t16);
+    const double t18 = (s2 * t14) - (c2 * t16);
+    const double r12 = (c1 * t18) - (s1 * t17);
+    const double r22 = (s1 * t18) + (c1 * t17);
     const double t19 = c5 * s6;
     const double t20 = s5 * s6;
-    const double t21 = c4 * c6 + s4 * t19;
-    const double t22 = c4 * t19 - s4 * c6;
-    const double t23 = c3 * t22 - s3 * t20;
-    const double t24 = s3 * t22 + c3 * t20;
-    const double r33 = c2 * t21 - s2 * t23;
-    const double t25 = s2 * t21 + c2 * t23;
-    const double r13 = c1 * t25 - s1 * t24;
-    const double r23 = s1 * t25 + c1 * t24;
+    const double t21 = (c4 * c6) + (s4 * t19);
+    const double t22 = (c4 * t19) - (s4 * c6);
+    const double t23 = (c3 * t22) - (s3 * t20);
+    const double t24 = (s3 * t22) + (c3 * t20);
+    const double r33 = (c2 * t21) - (s2 * t23);
+    const double t25 = (s2 * t21) + (c2 * t23);
+    const double r13 = (c1 * t25) - (s1 * t24);
+    const double r23 = (s1 * t25) + (c1 * t24);
 
-    T[0] = r22 * r33 - r32 * r23;
+    T[0] = (r22 * r33) - (r32 * r23);
     T[1] = r12;
     T[2] = r13;
-    T[3] = c1 * t9 - s1 * t8;
-    T[4] = r32 * r13 - r12 * r33;
+    T[3] = (c1 * t9) - (s1 * t8);
+    T[4] = (r32 * r13) - (r12 * r33);
     T[5] = r22;
     T[6] = r23;
-    T[7] = s1 * t9 + c1 * t8;
-    T[8] = r12 * r23 - r22 * r13;
+    T[7] = (s1 * t9) + (c1 * t8);
+    T[8] = (r12 * r23) - (r22 * r13);
     T[9] = r32;
     T[10] = r33;
-    T[11] = 0.34 + (c2 * t6 - s2 * t7);
+    T[11] = 0.34 + ((c2 * t6) - (s2 * t7));
     T[12] = 0.0;
     T[13] = 0.0;
     T[14] = 0.0;
@@ -93,92 +286,96 @@ void iiwa_jacobian(const double q[7], double J[42])
     const double theta4 = q[3];
     const double theta5 = q[4];
     const double theta6 = q[5];
-    const double c1 = cos(theta1);
-    const double s1 = sin(theta1);
-    const double c2 = cos(theta2);
-    const double s2 = sin(theta2);
-    const double c3 = cos(theta3);
-    const double s3 = sin(theta3);
-    const double c4 = cos(theta4);
-    const double s4 = sin(theta4);
-    const double c5 = cos(theta5);
-    const double s5 = sin(theta5);
-    const double c6 = cos(theta6);
-    const double s6 = sin(theta6);
+    double sc1[8];
+    iiwa_sincos4(theta1, theta2, theta3, theta4, sc1);
+    const double s1 = sc1[0];
+    const double c1 = sc1[1];
+    const double s2 = sc1[2];
+    const double c2 = sc1[3];
+    const double s3 = sc1[4];
+    const double c3 = sc1[5];
+    const double s4 = sc1[6];
+    const double c4 = sc1[7];
+    double sc5[4];
+    iiwa_sincos2(theta5, theta6, sc5);
+    const double s5 = sc5[0];
+    const double c5 = sc5[1];
+    const double s6 = sc5[2];
+    const double c6 = sc5[3];
     const double t1 = c1 * c2;
     const double t2 = s1 * c2;
     const double wx3 = c1 * s2;
     const double wy3 = s1 * s2;
     const double t3 = s2 * c3;
-    const double t4 = t1 * c3 - s1 * s3;
-    const double t5 = t2 * c3 + c1 * s3;
+    const double t4 = (t1 * c3) - (s1 * s3);
+    const double t5 = (t2 * c3) + (c1 * s3);
     const double t6 = s2 * s3;
-    const double wx4 = t1 * s3 + s1 * c3;
-    const double t7 = c1 * c3 - t2 * s3;
-    const double t8 = t4 * c4 + wx3 * s4;
-    const double t9 = t5 * c4 + wy3 * s4;
-    const double t10 = c2 * s4 - t3 * c4;
-    const double wx5 = wx3 * c4 - t4 * s4;
-    const double wy5 = wy3 * c4 - t5 * s4;
-    const double wz5 = t3 * s4 + c2 * c4;
-    const double t11 = t8 * c5 - wx4 * s5;
-    const double t12 = t9 * c5 + t7 * s5;
-    const double t13 = t10 * c5 + t6 * s5;
+    const double wx4 = (t1 * s3) + (s1 * c3);
+    const double t7 = (c1 * c3) - (t2 * s3);
+    const double t8 = (t4 * c4) + (wx3 * s4);
+    const double t9 = (t5 * c4) + (wy3 * s4);
+    const double t10 = (c2 * s4) - (t3 * c4);
+    const double wx5 = (wx3 * c4) - (t4 * s4);
+    const double wy5 = (wy3 * c4) - (t5 * s4);
+    const double wz5 = (t3 * s4) + (c2 * c4);
+    const double t11 = (t8 * c5) - (wx4 * s5);
+    const double t12 = (t9 * c5) + (t7 * s5);
+    const double t13 = (t10 * c5) + (t6 * s5);
     const double t14 = 0.126 * c6;
     const double t15 = 0.126 * s6;
     const double t16 = 0.4 + t14;
     const double t17 = c5 * t15;
     const double t18 = s5 * t15;
-    const double t19 = c4 * t16 + s4 * t17;
-    const double t20 = c4 * t17 - s4 * t16;
+    const double t19 = (c4 * t16) + (s4 * t17);
+    const double t20 = (c4 * t17) - (s4 * t16);
     const double t21 = 0.4 + t19;
-    const double t22 = c3 * t20 - s3 * t18;
-    const double t23 = s3 * t20 + c3 * t18;
-    const double t24 = c2 * t21 - s2 * t22;
-    const double t25 = s2 * t21 + c2 * t22;
+    const double t22 = (c3 * t20) - (s3 * t18);
+    const double t23 = (s3 * t20) + (c3 * t18);
+    const double t24 = (c2 * t21) - (s2 * t22);
+    const double t25 = (s2 * t21) + (c2 * t22);
 
-    J[0] = -(s1 * t25 + c1 * t23);
+    J[0] = -((s1 * t25) + (c1 * t23));
     J[1] = c1 * t24;
-    J[2] = -(t1 * t23 + s1 * t22);
-    J[3] = wx3 * t20 - t4 * t19;
-    J[4] = -(t8 * t18 + wx4 * t17);
-    J[5] = t11 * t14 - wx5 * t15;
+    J[2] = -((t1 * t23) + (s1 * t22));
+    J[3] = (wx3 * t20) - (t4 * t19);
+    J[4] = -((t8 * t18) + (wx4 * t17));
+    J[5] = (t11 * t14) - (wx5 * t15);
     J[6] = 0.0;
-    J[7] = c1 * t25 - s1 * t23;
+    J[7] = (c1 * t25) - (s1 * t23);
     J[8] = s1 * t24;
-    J[9] = c1 * t22 - t2 * t23;
-    J[10] = wy3 * t20 - t5 * t19;
-    J[11] = t7 * t17 - t9 * t18;
-    J[12] = t12 * t14 - wy5 * t15;
+    J[9] = (c1 * t22) - (t2 * t23);
+    J[10] = (wy3 * t20) - (t5 * t19);
+    J[11] = (t7 * t17) - (t9 * t18);
+    J[12] = (t12 * t14) - (wy5 * t15);
     J[13] = 0.0;
     J[14] = 0.0;
     J[15] = -t25;
     J[16] = s2 * t23;
-    J[17] = t3 * t19 + c2 * t20;
-    J[18] = t6 * t17 - t10 * t18;
-    J[19] = t13 * t14 - wz5 * t15;
+    J[17] = (t3 * t19) + (c2 * t20);
+    J[18] = (t6 * t17) - (t10 * t18);
+    J[19] = (t13 * t14) - (wz5 * t15);
     J[20] = 0.0;
     J[21] = 0.0;
     J[22] = -s1;
     J[23] = wx3;
     J[24] = wx4;
     J[25] = wx5;
-    J[26] = -(t8 * s5 + wx4 * c5);
-    J[27] = t11 * s6 + wx5 * c6;
+    J[26] = -((t8 * s5) + (wx4 * c5));
+    J[27] = (t11 * s6) + (wx5 * c6);
     J[28] = 0.0;
     J[29] = c1;
     J[30] = wy3;
     J[31] = -t7;
     J[32] = wy5;
-    J[33] = t7 * c5 - t9 * s5;
-    J[34] = t12 * s6 + wy5 * c6;
+    J[33] = (t7 * c5) - (t9 * s5);
+    J[34] = (t12 * s6) + (wy5 * c6);
     J[35] = 1.0;
     J[36] = 0.0;
     J[37] = c2;
     J[38] = -t6;
     J[39] = wz5;
-    J[40] = t6 * c5 - t10 * s5;
-    J[41] = t13 * s6 + wz5 * c6;
+    J[40] = (t6 * c5) - (t10 * s5);
+    J[41] = (t13 * s6) + (wz5 * c6);
 }
 
 void iiwa_fk_jacobian(const double q[7], double T[16], double J[42])
@@ -190,73 +387,77 @@ void iiwa_fk_jacobian(const double q[7], double T[16], double J[42])
     const double theta5 = q[4];
     const double theta6 = q[5];
     const double theta7 = q[6];
-    const double c1 = cos(theta1);
-    const double s1 = sin(theta1);
-    const double c2 = cos(theta2);
-    const double s2 = sin(theta2);
-    const double c3 = cos(theta3);
-    const double s3 = sin(theta3);
-    const double c4 = cos(theta4);
-    const double s4 = sin(theta4);
-    const double c5 = cos(theta5);
-    const double s5 = sin(theta5);
-    const double c6 = cos(theta6);
-    const double s6 = sin(theta6);
-    const double c7 = cos(theta7);
-    const double s7 = sin(theta7);
+    double sc1[8];
+    iiwa_sincos4(theta1, theta2, theta3, theta4, sc1);
+    const double s1 = sc1[0];
+    const double c1 = sc1[1];
+    const double s2 = sc1[2];
+    const double c2 = sc1[3];
+    const double s3 = sc1[4];
+    const double c3 = sc1[5];
+    const double s4 = sc1[6];
+    const double c4 = sc1[7];
+    double sc5[8];
+    iiwa_sincos4(theta5, theta6, theta7, theta7, sc5);
+    const double s5 = sc5[0];
+    const double c5 = sc5[1];
+    const double s6 = sc5[2];
+    const double c6 = sc5[3];
+    const double s7 = sc5[4];
+    const double c7 = sc5[5];
     const double t1 = c1 * c2;
     const double t2 = s1 * c2;
     const double wx3 = c1 * s2;
     const double wy3 = s1 * s2;
     const double t3 = s2 * c3;
-    const double t4 = t1 * c3 - s1 * s3;
-    const double t5 = t2 * c3 + c1 * s3;
+    const double t4 = (t1 * c3) - (s1 * s3);
+    const double t5 = (t2 * c3) + (c1 * s3);
     const double t6 = s2 * s3;
-    const double wx4 = t1 * s3 + s1 * c3;
-    const double t7 = c1 * c3 - t2 * s3;
-    const double t8 = t4 * c4 + wx3 * s4;
-    const double t9 = t5 * c4 + wy3 * s4;
-    const double t10 = c2 * s4 - t3 * c4;
-    const double wx5 = wx3 * c4 - t4 * s4;
-    const double wy5 = wy3 * c4 - t5 * s4;
-    const double wz5 = t3 * s4 + c2 * c4;
-    const double t11 = t8 * c5 - wx4 * s5;
-    const double t12 = t9 * c5 + t7 * s5;
-    const double t13 = t10 * c5 + t6 * s5;
-    const double t14 = t8 * s5 + wx4 * c5;
-    const double wy6 = t7 * c5 - t9 * s5;
-    const double wz6 = t6 * c5 - t10 * s5;
-    const double t15 = t11 * c6 - wx5 * s6;
-    const double t16 = t12 * c6 - wy5 * s6;
-    const double t17 = t13 * c6 - wz5 * s6;
-    const double r13 = t11 * s6 + wx5 * c6;
-    const double r23 = t12 * s6 + wy5 * c6;
-    const double r33 = t13 * s6 + wz5 * c6;
+    const double wx4 = (t1 * s3) + (s1 * c3);
+    const double t7 = (c1 * c3) - (t2 * s3);
+    const double t8 = (t4 * c4) + (wx3 * s4);
+    const double t9 = (t5 * c4) + (wy3 * s4);
+    const double t10 = (c2 * s4) - (t3 * c4);
+    const double wx5 = (wx3 * c4) - (t4 * s4);
+    const double wy5 = (wy3 * c4) - (t5 * s4);
+    const double wz5 = (t3 * s4) + (c2 * c4);
+    const double t11 = (t8 * c5) - (wx4 * s5);
+    const double t12 = (t9 * c5) + (t7 * s5);
+    const double t13 = (t10 * c5) + (t6 * s5);
+    const double t14 = (t8 * s5) + (wx4 * c5);
+    const double wy6 = (t7 * c5) - (t9 * s5);
+    const double wz6 = (t6 * c5) - (t10 * s5);
+    const double t15 = (t11 * c6) - (wx5 * s6);
+    const double t16 = (t12 * c6) - (wy5 * s6);
+    const double t17 = (t13 * c6) - (wz5 * s6);
+    const double r13 = (t11 * s6) + (wx5 * c6);
+    const double r23 = (t12 * s6) + (wy5 * c6);
+    const double r33 = (t13 * s6) + (wz5 * c6);
     const double t18 = 0.126 * c6;
     const double t19 = 0.126 * s6;
     const double t20 = 0.4 + t18;
     const double t21 = c5 * t19;
     const double t22 = s5 * t19;
-    const double t23 = c4 * t20 + s4 * t21;
-    const double t24 = c4 * t21 - s4 * t20;
+    const double t23 = (c4 * t20) + (s4 * t21);
+    const double t24 = (c4 * t21) - (s4 * t20);
     const double t25 = 0.4 + t23;
-    const double t26 = c3 * t24 - s3 * t22;
-    const double t27 = s3 * t24 + c3 * t22;
-    const double t28 = c2 * t25 - s2 * t26;
-    const double t29 = s2 * t25 + c2 * t26;
-    const double px = c1 * t29 - s1 * t27;
-    const double py = s1 * t29 + c1 * t27;
+    const double t26 = (c3 * t24) - (s3 * t22);
+    const double t27 = (s3 * t24) + (c3 * t22);
+    const double t28 = (c2 * t25) - (s2 * t26);
+    const double t29 = (s2 * t25) + (c2 * t26);
+    const double px = (c1 * t29) - (s1 * t27);
+    const double py = (s1 * t29) + (c1 * t27);
 
-    T[0] = t15 * c7 - t14 * s7;
-    T[1] = -(t15 * s7 + t14 * c7);
+    T[0] = (t15 * c7) - (t14 * s7);
+    T[1] = -((t15 * s7) + (t14 * c7));
     T[2] = r13;
     T[3] = px;
-    T[4] = t16 * c7 + wy6 * s7;
-    T[5] = wy6 * c7 - t16 * s7;
+    T[4] = (t16 * c7) + (wy6 * s7);
+    T[5] = (wy6 * c7) - (t16 * s7);
     T[6] = r23;
     T[7] = py;
-    T[8] = t17 * c7 + wz6 * s7;
-    T[9] = wz6 * c7 - t17 * s7;
+    T[8] = (t17 * c7) + (wz6 * s7);
+    T[9] = (wz6 * c7) - (t17 * s7);
     T[10] = r33;
     T[11] = 0.34 + t28;
     T[12] = 0.0;
@@ -265,24 +466,24 @@ void iiwa_fk_jacobian(const double q[7], double T[16], double J[42])
     T[15] = 1.0;
     J[0] = -py;
     J[1] = c1 * t28;
-    J[2] = -(t1 * t27 + s1 * t26);
-    J[3] = wx3 * t24 - t4 * t23;
-    J[4] = -(t8 * t22 + wx4 * t21);
-    J[5] = t11 * t18 - wx5 * t19;
+    J[2] = -((t1 * t27) + (s1 * t26));
+    J[3] = (wx3 * t24) - (t4 * t23);
+    J[4] = -((t8 * t22) + (wx4 * t21));
+    J[5] = (t11 * t18) - (wx5 * t19);
     J[6] = 0.0;
     J[7] = px;
     J[8] = s1 * t28;
-    J[9] = c1 * t26 - t2 * t27;
-    J[10] = wy3 * t24 - t5 * t23;
-    J[11] = t7 * t21 - t9 * t22;
-    J[12] = t12 * t18 - wy5 * t19;
+    J[9] = (c1 * t26) - (t2 * t27);
+    J[10] = (wy3 * t24) - (t5 * t23);
+    J[11] = (t7 * t21) - (t9 * t22);
+    J[12] = (t12 * t18) - (wy5 * t19);
     J[13] = 0.0;
     J[14] = 0.0;
     J[15] = -t29;
     J[16] = s2 * t27;
-    J[17] = t3 * t23 + c2 * t24;
-    J[18] = t6 * t21 - t10 * t22;
-    J[19] = t13 * t18 - wz5 * t19;
+    J[17] = (t3 * t23) + (c2 * t24);
+    J[18] = (t6 * t21) - (t10 * t22);
+    J[19] = (t13 * t18) - (wz5 * t19);
     J[20] = 0.0;
     J[21] = 0.0;
     J[22] = -s1;

@@ -15,6 +15,7 @@
  *     d7 = 0.126
  *
  * An angle that is NaN or infinite makes what depends on it NaN.
+ * No inverse kinematics: 7 joints move, and a pose gives six numbers.
  *
  * Example:
  *
@@ -28,7 +29,7 @@
 #ifndef SYMDH_iiwa_H
 #define SYMDH_iiwa_H
 
-/** The table that this header comes from; iiwa.c checks that it comes from the same one. */
+/** The table that this header comes from; the source checks that it comes from the same one. */
 #define iiwa_TABLE_af2448304f28713b
 
 /** Number of joint variables. */

@@ -6,6 +6,8 @@ Do not edit: change the table and generate the file again. symdh claims no right
 Convention: standard, A_i = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i)
 Units: angles in rad, lengths in m
 
+No inverse kinematics: 7 joints move, and a pose gives six numbers.
+
 Joint variables, in the order of the last axis of q:
 
     q[..., 0]  theta1  revolute  rad
@@ -33,6 +35,12 @@ Examples
 
 from __future__ import annotations
 
+import math
+import struct
+import sys
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
@@ -59,8 +67,17 @@ JOINT_LIMITS: tuple[tuple[float, float] | None, ...] = (
     None,
 )
 
+#: Poses at a time: few enough that what is computed on the way stays in the cache.
+_CHUNK = 2048
 
-@np.errstate(invalid="ignore")
+#: Where the functions of arrays are that do not tell it.
+_NAMESPACES = {"cupy": "cupy", "dask": "dask.array", "torch": "torch"}
+
+_PACK_FK = struct.Struct("16d").pack
+_PACK_JACOBIAN = struct.Struct("42d").pack
+_PACK_FK_JACOBIAN = struct.Struct("58d").pack
+
+
 def fk(
     q: npt.ArrayLike,
     *,
@@ -74,7 +91,8 @@ def fk(
     Parameters
     ----------
     q : array_like, shape (..., 7)
-        Joint variables; see the head of this module.
+        Joint variables; see the head of this module. Arrays of JAX, PyTorch, CuPy, dask and others
+        with the array API standard stay what they are: the result is of their kind and number type.
     d1 : float, optional
         d1 of the table.
     d3 : float, optional
@@ -94,28 +112,184 @@ def fk(
     ValueError
         When the last axis of `q` does not hold 7 numbers.
     """
-    q = _checked(q)
-    theta1 = q[..., 0]
-    theta2 = q[..., 1]
-    theta3 = q[..., 2]
-    theta4 = q[..., 3]
-    theta5 = q[..., 4]
-    theta6 = q[..., 5]
-    theta7 = q[..., 6]
-    c1 = np.cos(theta1)
-    s1 = np.sin(theta1)
-    c2 = np.cos(theta2)
-    s2 = np.sin(theta2)
-    c3 = np.cos(theta3)
-    s3 = np.sin(theta3)
-    c4 = np.cos(theta4)
-    s4 = np.sin(theta4)
-    c5 = np.cos(theta5)
-    s5 = np.sin(theta5)
-    c6 = np.cos(theta6)
-    s6 = np.sin(theta6)
-    c7 = np.cos(theta7)
-    s7 = np.sin(theta7)
+    numbers: Any = q.tolist() if type(q) is np.ndarray and q.ndim == 1 else q
+    if type(numbers) in (list, tuple):
+        try:
+            entries = _fk(
+                math.sin,
+                math.cos,
+                d1,
+                d3,
+                d5,
+                d7,
+                *numbers,
+            )
+            packed = bytearray(_PACK_FK(*entries))
+            return np.ndarray((4, 4), np.float64, packed)
+        except (TypeError, ValueError, struct.error):
+            pass  # many poses, an infinite angle, or a mistake: arrays tell
+    (T,) = _arrays(
+        _fk,
+        q,
+        (d1, d3, d5, d7),
+        (4, 4),
+    )
+    return T
+
+
+def jacobian(
+    q: npt.ArrayLike,
+    *,
+    d1: float = 0.34,
+    d3: float = 0.4,
+    d5: float = 0.4,
+    d7: float = 0.126,
+) -> npt.NDArray[np.float64]:
+    """Return the geometric Jacobian of the end of the arm, the table's base and tool included.
+
+    Parameters
+    ----------
+    q : array_like, shape (..., 7)
+        Joint variables; see the head of this module. Arrays of JAX, PyTorch, CuPy, dask and others
+        with the array API standard stay what they are: the result is of their kind and number type.
+    d1 : float, optional
+        d1 of the table.
+    d3 : float, optional
+        d3 of the table.
+    d5 : float, optional
+        d5 of the table.
+    d7 : float, optional
+        d7 of the table.
+
+    Returns
+    -------
+    ndarray, shape (..., 6, 7)
+        Rows vx, vy, vz, wx, wy, wz, column k for the rate of ``q[..., k]``: the velocity of the
+        origin of the last frame, then its angular velocity, along the axes of the base frame.
+
+    Raises
+    ------
+    ValueError
+        When the last axis of `q` does not hold 7 numbers.
+    """
+    numbers: Any = q.tolist() if type(q) is np.ndarray and q.ndim == 1 else q
+    if type(numbers) in (list, tuple):
+        try:
+            entries = _jacobian(
+                math.sin,
+                math.cos,
+                d1,
+                d3,
+                d5,
+                d7,
+                *numbers,
+            )
+            packed = bytearray(_PACK_JACOBIAN(*entries))
+            return np.ndarray((6, N_JOINTS), np.float64, packed)
+        except (TypeError, ValueError, struct.error):
+            pass  # many poses, an infinite angle, or a mistake: arrays tell
+    (J,) = _arrays(
+        _jacobian,
+        q,
+        (d1, d3, d5, d7),
+        (6, N_JOINTS),
+    )
+    return J
+
+
+def fk_jacobian(
+    q: npt.ArrayLike,
+    *,
+    d1: float = 0.34,
+    d3: float = 0.4,
+    d5: float = 0.4,
+    d7: float = 0.126,
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Return the pose and the Jacobian together, for less work than one after the other.
+
+    Parameters
+    ----------
+    q : array_like, shape (..., 7)
+        Joint variables; see the head of this module. Arrays of JAX, PyTorch, CuPy, dask and others
+        with the array API standard stay what they are: the result is of their kind and number type.
+    d1 : float, optional
+        d1 of the table.
+    d3 : float, optional
+        d3 of the table.
+    d5 : float, optional
+        d5 of the table.
+    d7 : float, optional
+        d7 of the table.
+
+    Returns
+    -------
+    T : ndarray, shape (..., 4, 4)
+        As `fk` returns it, up to rounding.
+    J : ndarray, shape (..., 6, 7)
+        As `jacobian` returns it, up to rounding.
+
+    Raises
+    ------
+    ValueError
+        When the last axis of `q` does not hold 7 numbers.
+    """
+    numbers: Any = q.tolist() if type(q) is np.ndarray and q.ndim == 1 else q
+    if type(numbers) in (list, tuple):
+        try:
+            entries = _fk_jacobian(
+                math.sin,
+                math.cos,
+                d1,
+                d3,
+                d5,
+                d7,
+                *numbers,
+            )
+            packed = bytearray(_PACK_FK_JACOBIAN(*entries))
+            T = np.ndarray((4, 4), np.float64, packed)
+            return T, np.ndarray((6, N_JOINTS), np.float64, packed, T.nbytes)
+        except (TypeError, ValueError, struct.error):
+            pass  # many poses, an infinite angle, or a mistake: arrays tell
+    T, J = _arrays(
+        _fk_jacobian,
+        q,
+        (d1, d3, d5, d7),
+        (4, 4),
+        (6, N_JOINTS),
+    )
+    return T, J
+
+
+def _fk(
+    sin: Any,
+    cos: Any,
+    d1: Any,
+    d3: Any,
+    d5: Any,
+    d7: Any,
+    theta1: Any,
+    theta2: Any,
+    theta3: Any,
+    theta4: Any,
+    theta5: Any,
+    theta6: Any,
+    theta7: Any,
+) -> tuple[Any, ...]:
+    """Return the entries of T row by row, for numbers or arrays."""
+    c1 = cos(theta1)
+    s1 = sin(theta1)
+    c2 = cos(theta2)
+    s2 = sin(theta2)
+    c3 = cos(theta3)
+    s3 = sin(theta3)
+    c4 = cos(theta4)
+    s4 = sin(theta4)
+    c5 = cos(theta5)
+    s5 = sin(theta5)
+    c6 = cos(theta6)
+    s6 = sin(theta6)
+    c7 = cos(theta7)
+    s7 = sin(theta7)
     t1 = d7 * s6
     t2 = d5 + d7 * c6
     t3 = c5 * t1
@@ -147,77 +321,42 @@ def fk(
     t25 = s2 * t21 + c2 * t23
     r13 = c1 * t25 - s1 * t24
     r23 = s1 * t25 + c1 * t24
-    T = np.zeros((*q.shape[:-1], 4, 4))
-    T[..., 0, 0] = r22 * r33 - r32 * r23
-    T[..., 0, 1] = r12
-    T[..., 0, 2] = r13
-    T[..., 0, 3] = c1 * t9 - s1 * t8
-    T[..., 1, 0] = r32 * r13 - r12 * r33
-    T[..., 1, 1] = r22
-    T[..., 1, 2] = r23
-    T[..., 1, 3] = s1 * t9 + c1 * t8
-    T[..., 2, 0] = r12 * r23 - r22 * r13
-    T[..., 2, 1] = r32
-    T[..., 2, 2] = r33
-    T[..., 2, 3] = d1 + (c2 * t6 - s2 * t7)
-    T[..., 3, 3] = 1.0
-    return T
+    return (
+        r22 * r33 - r32 * r23, r12, r13, c1 * t9 - s1 * t8,
+        r32 * r13 - r12 * r33, r22, r23, s1 * t9 + c1 * t8,
+        r12 * r23 - r22 * r13, r32, r33, d1 + (c2 * t6 - s2 * t7),
+        0.0, 0.0, 0.0, 1.0,
+    )
 
 
-@np.errstate(invalid="ignore")
-def jacobian(
-    q: npt.ArrayLike,
-    *,
-    d1: float = 0.34,
-    d3: float = 0.4,
-    d5: float = 0.4,
-    d7: float = 0.126,
-) -> npt.NDArray[np.float64]:
-    """Return the geometric Jacobian of the end of the arm, the table's base and tool included.
-
-    Parameters
-    ----------
-    q : array_like, shape (..., 7)
-        Joint variables; see the head of this module.
-    d1 : float, optional
-        d1 of the table.
-    d3 : float, optional
-        d3 of the table.
-    d5 : float, optional
-        d5 of the table.
-    d7 : float, optional
-        d7 of the table.
-
-    Returns
-    -------
-    ndarray, shape (..., 6, 7)
-        Rows vx, vy, vz, wx, wy, wz, column k for the rate of ``q[..., k]``: the velocity of the
-        origin of the last frame, then its angular velocity, along the axes of the base frame.
-
-    Raises
-    ------
-    ValueError
-        When the last axis of `q` does not hold 7 numbers.
-    """
-    q = _checked(q)
-    theta1 = q[..., 0]
-    theta2 = q[..., 1]
-    theta3 = q[..., 2]
-    theta4 = q[..., 3]
-    theta5 = q[..., 4]
-    theta6 = q[..., 5]
-    c1 = np.cos(theta1)
-    s1 = np.sin(theta1)
-    c2 = np.cos(theta2)
-    s2 = np.sin(theta2)
-    c3 = np.cos(theta3)
-    s3 = np.sin(theta3)
-    c4 = np.cos(theta4)
-    s4 = np.sin(theta4)
-    c5 = np.cos(theta5)
-    s5 = np.sin(theta5)
-    c6 = np.cos(theta6)
-    s6 = np.sin(theta6)
+def _jacobian(
+    sin: Any,
+    cos: Any,
+    d1: Any,
+    d3: Any,
+    d5: Any,
+    d7: Any,
+    theta1: Any,
+    theta2: Any,
+    theta3: Any,
+    theta4: Any,
+    theta5: Any,
+    theta6: Any,
+    theta7: Any,
+) -> tuple[Any, ...]:
+    """Return the entries of J row by row, for numbers or arrays."""
+    c1 = cos(theta1)
+    s1 = sin(theta1)
+    c2 = cos(theta2)
+    s2 = sin(theta2)
+    c3 = cos(theta3)
+    s3 = sin(theta3)
+    c4 = cos(theta4)
+    s4 = sin(theta4)
+    c5 = cos(theta5)
+    s5 = sin(theta5)
+    c6 = cos(theta6)
+    s6 = sin(theta6)
     t1 = c1 * c2
     t2 = s1 * c2
     wx3 = c1 * s2
@@ -249,103 +388,58 @@ def jacobian(
     t23 = s3 * t20 + c3 * t18
     t24 = c2 * t21 - s2 * t22
     t25 = s2 * t21 + c2 * t22
-    J = np.zeros((*q.shape[:-1], 6, N_JOINTS))
-    J[..., 0, 0] = -(s1 * t25 + c1 * t23)
-    J[..., 0, 1] = c1 * t24
-    J[..., 0, 2] = -(t1 * t23 + s1 * t22)
-    J[..., 0, 3] = wx3 * t20 - t4 * t19
-    J[..., 0, 4] = -(t8 * t18 + wx4 * t17)
-    J[..., 0, 5] = t11 * t14 - wx5 * t15
-    J[..., 1, 0] = c1 * t25 - s1 * t23
-    J[..., 1, 1] = s1 * t24
-    J[..., 1, 2] = c1 * t22 - t2 * t23
-    J[..., 1, 3] = wy3 * t20 - t5 * t19
-    J[..., 1, 4] = t7 * t17 - t9 * t18
-    J[..., 1, 5] = t12 * t14 - wy5 * t15
-    J[..., 2, 1] = -t25
-    J[..., 2, 2] = s2 * t23
-    J[..., 2, 3] = t3 * t19 + c2 * t20
-    J[..., 2, 4] = t6 * t17 - t10 * t18
-    J[..., 2, 5] = t13 * t14 - wz5 * t15
-    J[..., 3, 1] = -s1
-    J[..., 3, 2] = wx3
-    J[..., 3, 3] = wx4
-    J[..., 3, 4] = wx5
-    J[..., 3, 5] = -(t8 * s5 + wx4 * c5)
-    J[..., 3, 6] = t11 * s6 + wx5 * c6
-    J[..., 4, 1] = c1
-    J[..., 4, 2] = wy3
-    J[..., 4, 3] = -t7
-    J[..., 4, 4] = wy5
-    J[..., 4, 5] = t7 * c5 - t9 * s5
-    J[..., 4, 6] = t12 * s6 + wy5 * c6
-    J[..., 5, 0] = 1.0
-    J[..., 5, 2] = c2
-    J[..., 5, 3] = -t6
-    J[..., 5, 4] = wz5
-    J[..., 5, 5] = t6 * c5 - t10 * s5
-    J[..., 5, 6] = t13 * s6 + wz5 * c6
-    return J
+    return (
+        -(s1 * t25 + c1 * t23),
+        c1 * t24,
+        -(t1 * t23 + s1 * t22),
+        wx3 * t20 - t4 * t19,
+        -(t8 * t18 + wx4 * t17),
+        t11 * t14 - wx5 * t15,
+        0.0,
+        c1 * t25 - s1 * t23,
+        s1 * t24,
+        c1 * t22 - t2 * t23,
+        wy3 * t20 - t5 * t19,
+        t7 * t17 - t9 * t18,
+        t12 * t14 - wy5 * t15,
+        0.0,
+        0.0, -t25, s2 * t23, t3 * t19 + c2 * t20, t6 * t17 - t10 * t18, t13 * t14 - wz5 * t15, 0.0,
+        0.0, -s1, wx3, wx4, wx5, -(t8 * s5 + wx4 * c5), t11 * s6 + wx5 * c6,
+        0.0, c1, wy3, -t7, wy5, t7 * c5 - t9 * s5, t12 * s6 + wy5 * c6,
+        1.0, 0.0, c2, -t6, wz5, t6 * c5 - t10 * s5, t13 * s6 + wz5 * c6,
+    )
 
 
-@np.errstate(invalid="ignore")
-def fk_jacobian(
-    q: npt.ArrayLike,
-    *,
-    d1: float = 0.34,
-    d3: float = 0.4,
-    d5: float = 0.4,
-    d7: float = 0.126,
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Return the pose and the Jacobian together, for less work than one after the other.
-
-    Parameters
-    ----------
-    q : array_like, shape (..., 7)
-        Joint variables; see the head of this module.
-    d1 : float, optional
-        d1 of the table.
-    d3 : float, optional
-        d3 of the table.
-    d5 : float, optional
-        d5 of the table.
-    d7 : float, optional
-        d7 of the table.
-
-    Returns
-    -------
-    T : ndarray, shape (..., 4, 4)
-        As `fk` returns it, up to rounding.
-    J : ndarray, shape (..., 6, 7)
-        As `jacobian` returns it, up to rounding.
-
-    Raises
-    ------
-    ValueError
-        When the last axis of `q` does not hold 7 numbers.
-    """
-    q = _checked(q)
-    theta1 = q[..., 0]
-    theta2 = q[..., 1]
-    theta3 = q[..., 2]
-    theta4 = q[..., 3]
-    theta5 = q[..., 4]
-    theta6 = q[..., 5]
-    theta7 = q[..., 6]
-    c1 = np.cos(theta1)
-    s1 = np.sin(theta1)
-    c2 = np.cos(theta2)
-    s2 = np.sin(theta2)
-    c3 = np.cos(theta3)
-    s3 = np.sin(theta3)
-    c4 = np.cos(theta4)
-    s4 = np.sin(theta4)
-    c5 = np.cos(theta5)
-    s5 = np.sin(theta5)
-    c6 = np.cos(theta6)
-    s6 = np.sin(theta6)
-    c7 = np.cos(theta7)
-    s7 = np.sin(theta7)
+def _fk_jacobian(
+    sin: Any,
+    cos: Any,
+    d1: Any,
+    d3: Any,
+    d5: Any,
+    d7: Any,
+    theta1: Any,
+    theta2: Any,
+    theta3: Any,
+    theta4: Any,
+    theta5: Any,
+    theta6: Any,
+    theta7: Any,
+) -> tuple[Any, ...]:
+    """Return the entries of T and J row by row, for numbers or arrays."""
+    c1 = cos(theta1)
+    s1 = sin(theta1)
+    c2 = cos(theta2)
+    s2 = sin(theta2)
+    c3 = cos(theta3)
+    s3 = sin(theta3)
+    c4 = cos(theta4)
+    s4 = sin(theta4)
+    c5 = cos(theta5)
+    s5 = sin(theta5)
+    c6 = cos(theta6)
+    s6 = sin(theta6)
+    c7 = cos(theta7)
+    s7 = sin(theta7)
     t1 = c1 * c2
     t2 = s1 * c2
     wx3 = c1 * s2
@@ -388,61 +482,108 @@ def fk_jacobian(
     t29 = s2 * t25 + c2 * t26
     px = c1 * t29 - s1 * t27
     py = s1 * t29 + c1 * t27
-    T = np.zeros((*q.shape[:-1], 4, 4))
-    J = np.zeros((*q.shape[:-1], 6, N_JOINTS))
-    T[..., 0, 0] = t15 * c7 - t14 * s7
-    T[..., 0, 1] = -(t15 * s7 + t14 * c7)
-    T[..., 0, 2] = r13
-    T[..., 0, 3] = px
-    T[..., 1, 0] = t16 * c7 + wy6 * s7
-    T[..., 1, 1] = wy6 * c7 - t16 * s7
-    T[..., 1, 2] = r23
-    T[..., 1, 3] = py
-    T[..., 2, 0] = t17 * c7 + wz6 * s7
-    T[..., 2, 1] = wz6 * c7 - t17 * s7
-    T[..., 2, 2] = r33
-    T[..., 2, 3] = d1 + t28
-    J[..., 0, 0] = -py
-    J[..., 0, 1] = c1 * t28
-    J[..., 0, 2] = -(t1 * t27 + s1 * t26)
-    J[..., 0, 3] = wx3 * t24 - t4 * t23
-    J[..., 0, 4] = -(t8 * t22 + wx4 * t21)
-    J[..., 0, 5] = t11 * t18 - wx5 * t19
-    J[..., 1, 0] = px
-    J[..., 1, 1] = s1 * t28
-    J[..., 1, 2] = c1 * t26 - t2 * t27
-    J[..., 1, 3] = wy3 * t24 - t5 * t23
-    J[..., 1, 4] = t7 * t21 - t9 * t22
-    J[..., 1, 5] = t12 * t18 - wy5 * t19
-    J[..., 2, 1] = -t29
-    J[..., 2, 2] = s2 * t27
-    J[..., 2, 3] = t3 * t23 + c2 * t24
-    J[..., 2, 4] = t6 * t21 - t10 * t22
-    J[..., 2, 5] = t13 * t18 - wz5 * t19
-    J[..., 3, 1] = -s1
-    J[..., 3, 2] = wx3
-    J[..., 3, 3] = wx4
-    J[..., 3, 4] = wx5
-    J[..., 3, 5] = -t14
-    J[..., 3, 6] = r13
-    J[..., 4, 1] = c1
-    J[..., 4, 2] = wy3
-    J[..., 4, 3] = -t7
-    J[..., 4, 4] = wy5
-    J[..., 4, 5] = wy6
-    J[..., 4, 6] = r23
-    J[..., 5, 0] = 1.0
-    J[..., 5, 2] = c2
-    J[..., 5, 3] = -t6
-    J[..., 5, 4] = wz5
-    J[..., 5, 5] = wz6
-    J[..., 5, 6] = r33
-    T[..., 3, 3] = 1.0
-    return T, J
+    return (
+        t15 * c7 - t14 * s7, -(t15 * s7 + t14 * c7), r13, px,
+        t16 * c7 + wy6 * s7, wy6 * c7 - t16 * s7, r23, py,
+        t17 * c7 + wz6 * s7, wz6 * c7 - t17 * s7, r33, d1 + t28,
+        0.0, 0.0, 0.0, 1.0,
+        -py,
+        c1 * t28,
+        -(t1 * t27 + s1 * t26),
+        wx3 * t24 - t4 * t23,
+        -(t8 * t22 + wx4 * t21),
+        t11 * t18 - wx5 * t19,
+        0.0,
+        px,
+        s1 * t28,
+        c1 * t26 - t2 * t27,
+        wy3 * t24 - t5 * t23,
+        t7 * t21 - t9 * t22,
+        t12 * t18 - wy5 * t19,
+        0.0,
+        0.0, -t29, s2 * t27, t3 * t23 + c2 * t24, t6 * t21 - t10 * t22, t13 * t18 - wz5 * t19, 0.0,
+        0.0, -s1, wx3, wx4, wx5, -t14, r13,
+        0.0, c1, wy3, -t7, wy5, wy6, r23,
+        1.0, 0.0, c2, -t6, wz5, wz6, r33,
+    )
 
 
-def _checked(q: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    joints = np.asarray(q, dtype=np.float64)
-    if joints.ndim == 0 or joints.shape[-1] != N_JOINTS:
-        raise ValueError(f"q must have shape (..., {N_JOINTS}), not {joints.shape}")
-    return joints
+def _arrays(
+    function: Callable[..., tuple[Any, ...]],
+    q: Any,
+    parameters: tuple[float, ...],
+    *shapes: tuple[int, int],
+) -> list[npt.NDArray[np.float64]]:
+    """Run a function on arrays; each result has the leading axes of `q` and its own shape."""
+    xp = _namespace(q)
+    q = np.asarray(q, dtype=np.float64) if xp is np else q
+    if len(q.shape) == 0 or q.shape[-1] != N_JOINTS:
+        raise ValueError(f"q must have shape (..., {N_JOINTS}), not {tuple(q.shape)}")
+    if xp is np:
+        return _in_chunks(function, q, parameters, shapes)
+    return _in_namespace(function, q, xp, parameters, shapes)
+
+
+def _namespace(q: Any) -> Any:
+    """Return the module that computes with an array: what it says itself, else NumPy."""
+    if isinstance(q, np.ndarray):
+        return np
+    if hasattr(q, "__array_namespace__"):
+        return q.__array_namespace__()
+    library = type(q).__module__.partition(".")[0]
+    return sys.modules[_NAMESPACES[library]] if library in _NAMESPACES else np
+
+
+def _in_chunks(
+    function: Callable[..., tuple[Any, ...]],
+    q: npt.NDArray[np.float64],
+    parameters: tuple[float, ...],
+    shapes: tuple[tuple[int, int], ...],
+) -> list[Any]:
+    """Run a function with NumPy, chunk by chunk."""
+    lead = q.shape[:-1]
+    count = math.prod(lead)
+    columns = q.reshape(count, N_JOINTS).T
+    sizes = [rows * width for rows, width in shapes]
+    results = [np.empty((count, size)) for size in sizes]
+    scratch = np.empty((sum(sizes), min(count, _CHUNK)))
+    with np.errstate(invalid="ignore"):
+        for start in range(0, count, _CHUNK):
+            joints = columns[:, start : start + _CHUNK].copy()
+            block = scratch[:, : joints.shape[1]]
+            entries = function(np.sin, np.cos, *parameters, *joints)
+            for line, entry in zip(block, entries, strict=True):
+                line[:] = entry
+            place = 0
+            for result, size in zip(results, sizes, strict=True):
+                result[start : start + _CHUNK] = block[place : place + size].T
+                place += size
+    return [x.reshape(*lead, *shape) for x, shape in zip(results, shapes, strict=True)]
+
+
+def _in_namespace(
+    function: Callable[..., tuple[Any, ...]],
+    q: Any,
+    xp: Any,
+    parameters: tuple[float, ...],
+    shapes: tuple[tuple[int, int], ...],
+) -> list[Any]:
+    """Run a function with the functions of the array API standard that `xp` has."""
+
+    def sin(x: Any) -> Any:
+        return math.sin(x) if isinstance(x, (int, float)) else xp.sin(x)
+
+    def cos(x: Any) -> Any:
+        return math.cos(x) if isinstance(x, (int, float)) else xp.cos(x)
+
+    blank = xp.zeros_like(q[..., 0] if N_JOINTS else xp.sum(q, axis=-1))
+    entries = [
+        entry if getattr(entry, "shape", None) == blank.shape else blank + entry
+        for entry in function(sin, cos, *parameters, *(q[..., k] for k in range(N_JOINTS)))
+    ]
+    results = []
+    for rows, width in shapes:
+        own, entries = entries[: rows * width], entries[rows * width :]
+        shape = (*blank.shape, rows, width)
+        results.append(xp.reshape(xp.stack(own, axis=-1), shape) if own else xp.zeros(shape))
+    return results

@@ -1,0 +1,117 @@
+"""`symdh code --verify`: right code passes, code with one wrong sign does not."""
+
+from __future__ import annotations
+
+import re
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from conftest import Runner
+from sympy import Integer
+from test_codegen import FORMULAS, OBLIQUE, PLANAR, Q1, SCARA, STANDARD, STILL, revolute
+
+from symdh.codegen import generate
+from symdh.codegen.verification import CheckProgram, random_poses, verify
+from symdh.errors import LimitError, OutputError
+from symdh.robot import Robot
+from tools import require_tool
+
+ROOT = Path(__file__).parent.parent
+SCARA_TABLE = ROOT / "examples" / "scara.yaml"
+ONE = Robot("one", STANDARD, (revolute(Q1, a=Integer(2)),))
+
+
+@pytest.mark.parametrize("target", ["python", "c"])
+@pytest.mark.parametrize("robot", [PLANAR, SCARA, OBLIQUE, FORMULAS, STILL], ids=lambda r: r.name)
+def test_right_code_is_right(robot: Robot, target: str) -> None:
+    require_tool("gcc")
+    found = verify(robot, target, generate(robot, target), count=20)
+    assert found.is_right
+    assert found.poses == 20
+    assert found.tolerance == 4 + 2 * robot.n
+    assert 0 < found.error < found.tolerance / 2 or robot is STILL
+
+
+def test_float_is_measured_in_eps_of_float() -> None:
+    require_tool("gcc")
+    found = verify(SCARA, "c", generate(SCARA, "c", precision="float"), count=20, is_single=True)
+    assert found.is_right
+    assert found.error > 0.1
+
+
+@pytest.mark.parametrize("target", ["python", "c"])
+def test_wrong_code_is_found_out(target: str) -> None:
+    """2.0000000000001 for a length of 2: 450 eps of it."""
+    require_tool("gcc")
+    files = generate(ONE, target)
+    wrong = [
+        replace(file, text=re.sub(r"\b2\.0 \* ", f"{2 + 1e-13!r} * ", file.text)) for file in files
+    ]
+    assert wrong != list(files)
+    found = verify(ONE, target, wrong, count=5)
+    assert not found.is_right
+    assert 100 < found.error < 500
+
+
+def test_nan_is_not_right(monkeypatch: pytest.MonkeyPatch) -> None:
+    prints_nan = CheckProgram((), ((sys.executable, "-c", "print('nan ' * 16)"),))
+    from symdh.codegen.targets import python
+
+    monkeypatch.setattr(python, "check_program", lambda *arguments: prints_nan)
+    assert not verify(ONE, "python", (), count=1).is_right
+
+
+@pytest.mark.parametrize(
+    ("program", "message"),
+    [
+        ("raise SystemExit('no such thing')", "no such thing"),
+        ("print('1 2 3')", "did not print its poses"),
+    ],
+)
+def test_code_that_does_not_run_is_reported(
+    program: str, message: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from symdh.codegen.targets import python
+
+    given = CheckProgram((), ((sys.executable, "-c", program),))
+    monkeypatch.setattr(python, "check_program", lambda *arguments: given)
+    with pytest.raises(OutputError, match=message):
+        verify(ONE, "python", (), count=1)
+
+
+def test_code_that_does_not_end_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
+    from symdh.codegen import verification
+    from symdh.codegen.targets import python
+
+    given = CheckProgram((), ((sys.executable, "-c", "import time; time.sleep(60)"),))
+    monkeypatch.setattr(python, "check_program", lambda *arguments: given)
+    monkeypatch.setattr(verification, "_TIME_LIMIT", 0.5)
+    with pytest.raises(LimitError):
+        verify(ONE, "python", (), count=1)
+
+
+def test_poses_stay_within_the_limits_and_are_the_same_each_time() -> None:
+    poses = random_poses(SCARA, 200)
+    assert poses == random_poses(SCARA, 200)
+    assert all(0 <= row[2] <= 0.15 for row in poses.joints)
+    assert max(abs(row[1]) for row in poses.joints) > 2.5
+
+
+def test_the_command_says_how_exact_the_code_is(run_symdh: Runner) -> None:
+    require_tool("gcc")
+    ran = run_symdh("code", SCARA_TABLE, "--target", "c", "--target", "python", "--verify")
+    assert ran.returncode == 0
+    lines = ran.stdout.splitlines()
+    assert [line.split(":")[0] for line in lines] == ["python", "c"]
+    assert all("on 100 poses" in line and line.endswith("right") for line in lines)
+
+
+def test_the_command_says_which_compiler_is_missing(tmp_path: Path, run_symdh: Runner) -> None:
+    ran = run_symdh(
+        "code", SCARA_TABLE, "--target", "c", "--verify", env={"PATH": str(tmp_path / "nothing")}
+    )
+    assert ran.returncode == 3
+    assert "cc or gcc or clang is not installed" in ran.stderr
+    assert (tmp_path / "scara.c").exists()
