@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,12 +10,13 @@ from typing import TYPE_CHECKING
 
 import click
 
-from symdh.cli import batch, console, files, options, workers
+from symdh.cli import console, files, options
 from symdh.cli import tables as table_files
 from symdh.cli.output import WrittenFile, write_files
 from symdh.codegen import TARGETS, generate
 
 if TYPE_CHECKING:
+    from symdh.cli import batch
     from symdh.derivation.blocks import Document
     from symdh.robot import Robot
 
@@ -82,7 +84,14 @@ def derive(
     elif folder == "-":
         raise click.UsageError("-o - takes one table.")
     else:
-        batch.write_tables(tables, Path(folder or "."), wishes, write_job, jobs or workers.cores())
+        _derive_all(tables, folder, wishes, jobs)
+
+
+def _derive_all(tables: Sequence[str], folder: str | None, wishes: Wishes, jobs: int) -> None:
+    """Derive several tables, a folder each, on as many cores as asked; 0 is all of them."""
+    from symdh.cli import batch, workers
+
+    batch.write_tables(tables, Path(folder or "."), wishes, write_job, jobs or workers.cores())
 
 
 def _derive_one(table: str, folder: str | None, wishes: Wishes) -> None:
