@@ -90,6 +90,18 @@ def format_option(*forms: str, what: str) -> Callable[[F], F]:
     )
 
 
+def time_limit_option(seconds: float, what: str) -> Callable[[F], F]:
+    """Return the option ``--time-limit`` with its default and its line of help."""
+    return click.option(
+        "--time-limit",
+        type=click.FloatRange(min=0, min_open=True),
+        default=seconds,
+        show_default=True,
+        metavar="SECONDS",
+        help=what,
+    )
+
+
 def notation_option(function: F) -> F:
     """Add --notation."""
     return click.option(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import count
 
@@ -82,15 +82,19 @@ def schedule(outputs: Sequence[Output], names: Mapping[Node, str]) -> Routine:
     return Routine(inputs, assignments, tuple(outputs))
 
 
-def reachable(roots: Iterable[Node]) -> list[Node]:
-    """Return every node that some nodes need, themselves included, arguments first."""
+def reachable(roots: Iterable[Node], there: Container[Node] = ()) -> list[Node]:
+    """Return every node that some nodes need, themselves included, arguments first.
+
+    What is `there` already is returned too, and what it needs is not.
+    """
     seen: dict[int, Node] = {}
     waiting = list(roots)
     while waiting:
         node = waiting.pop()
         if node.index not in seen:
             seen[node.index] = node
-            waiting.extend(node.args)
+            if node not in there:
+                waiting.extend(node.args)
     return [seen[index] for index in sorted(seen)]
 
 
@@ -101,8 +105,8 @@ def op_counts(roots: Iterable[Node]) -> dict[Op, int]:
 
 
 def _to_be_named(needed: Sequence[Node], outputs: Sequence[Output]) -> Iterator[Node]:
-    uses = _uses(needed, outputs)
     last = {output.node for output in outputs}
+    uses = count_uses(needed, [output.node for output in outputs])
     sizes: dict[Node, int] = {}
     for node in needed:
         size = sum(sizes[arg] for arg in node.args) + (node.op not in _UNNAMED)
@@ -114,9 +118,9 @@ def _to_be_named(needed: Sequence[Node], outputs: Sequence[Output]) -> Iterator[
         sizes[node] = size
 
 
-def _uses(needed: Sequence[Node], outputs: Sequence[Output]) -> Counter[Node]:
+def count_uses(needed: Sequence[Node], roots: Iterable[Node]) -> Counter[Node]:
     """Count how often each node is written, a change of sign as often as what it changes."""
-    uses = Counter(output.node for output in outputs)
+    uses = Counter(roots)
     for node in reversed(needed):
         times = uses[node] if node.op is Op.NEG else 1
         for arg in node.args:

@@ -48,6 +48,11 @@ class Poses:
     joints: tuple[tuple[float, ...], ...]
     parameters: Mapping[Symbol, float]
 
+    @property
+    def rows(self) -> list[list[str]]:
+        """The joint values as literals that every language reads."""
+        return [[repr(x) for x in row] for row in self.joints]
+
 
 @dataclass(frozen=True, slots=True)
 class CheckProgram:

@@ -68,14 +68,7 @@ _FILES = {"html": "_ik.html", "pdf": "_ik.pdf"}
     metavar="N",
     help="Solve for the poses of N random joint values and say whether they are found again.",
 )
-@click.option(
-    "--time-limit",
-    type=click.FloatRange(min=0, min_open=True),
-    default=20.0,
-    show_default=True,
-    metavar="SECONDS",
-    help="Stop searching for a closed form after this CPU time.",
-)
+@options.time_limit_option(20.0, "Stop searching for a closed form after this CPU time.")
 @options.format_option(
     "text",
     "latex",

@@ -29,14 +29,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="What typesets; auto: TeX where it is installed, else the package typst.",
 )
-@click.option(
-    "--time-limit",
-    type=click.FloatRange(min=0, min_open=True),
-    default=60.0,
-    show_default=True,
-    metavar="SECONDS",
-    help="Stop typesetting after this time.",
-)
+@options.time_limit_option(60.0, "Stop typesetting after this time.")
 @options.document_options
 @options.sheet_options
 @options.preamble_option

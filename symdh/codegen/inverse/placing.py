@@ -7,13 +7,13 @@ that only stands by is computed when it is its turn.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import count
 
 from symdh.codegen.graph import LEAVES, Node, Op
 from symdh.codegen.inverse.program import Compute, Option, Propose, Solve, Statement
 from symdh.codegen.inverse.steps import Equations, Found, LoweredSteps
-from symdh.codegen.routine import Assignment, reachable
+from symdh.codegen.routine import Assignment, count_uses, reachable
 
 #: Operations that one line of code may hold before a part of it gets a line of its own.
 _LINE = 5
@@ -73,8 +73,8 @@ class _Placing:
         """Give names to what an option needs and nobody has computed yet."""
         there = {node for node in self._named if self._places[node] <= k}
         roots = (*option.coefficients, *option.scales)
-        needed = [node for node in _reachable_beside(roots, there) if node not in there]
-        uses = _uses(needed, roots)
+        needed = [node for node in reachable(roots, there) if node not in there]
+        uses = count_uses(needed, roots)
         assignments = []
         sizes: dict[Node, int] = dict.fromkeys(there, 0)
         for node in needed:
@@ -162,25 +162,3 @@ def _mandatory(one: Found) -> tuple[Node, ...]:
 
 def _size(node: Node, sizes: dict[Node, int]) -> int:
     return sum(sizes[arg] for arg in node.args) + (node.op not in _UNNAMED)
-
-
-def _reachable_beside(roots: Iterable[Node], there: set[Node]) -> list[Node]:
-    """Return what some nodes need, as far as it is not there; arguments first."""
-    seen: dict[int, Node] = {}
-    waiting = list(roots)
-    while waiting:
-        node = waiting.pop()
-        if node.index not in seen:
-            seen[node.index] = node
-            if node not in there:
-                waiting.extend(node.args)
-    return [seen[index] for index in sorted(seen)]
-
-
-def _uses(needed: Sequence[Node], roots: Sequence[Node]) -> Counter[Node]:
-    uses = Counter(roots)
-    for node in reversed(needed):
-        times = uses[node] if node.op is Op.NEG else 1
-        for arg in node.args:
-            uses[arg] += times
-    return uses

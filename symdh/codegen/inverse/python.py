@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from sympy import Symbol
 
+from symdh.codegen.calls import PYTHON
 from symdh.codegen.facts import Facts
-from symdh.codegen.graph import Op
 from symdh.codegen.inverse.breaking import broken, broken_value
 from symdh.codegen.inverse.constants import NUMBERS, SENTENCES, SETTLE, held_joints
 from symdh.codegen.inverse.found import Missing
@@ -17,20 +17,6 @@ from symdh.codegen.inverse.program import Program
 from symdh.codegen.inverse.writing import WrittenProgram, WrittenSolve, write_program
 from symdh.codegen.names import Scope, words
 from symdh.robot import Robot
-
-#: Scalars: the branches are too small for arrays.
-_FUNCTIONS = {
-    Op.SIN: "math.sin",
-    Op.COS: "math.cos",
-    Op.TAN: "math.tan",
-    Op.ASIN: "math.asin",
-    Op.ACOS: "math.acos",
-    Op.ATAN: "math.atan",
-    Op.ATAN2: "math.atan2",
-    Op.SQRT: "math.sqrt",
-    Op.ABS: "abs",
-    Op.POW: "math.pow",
-}
 
 #: What the section calls its functions, arguments and modules; names that begin with an underscore
 #: are nobody else's.
@@ -93,7 +79,7 @@ def python_section(
         return PythonSection(program.reason)
     scope = Scope(is_reserved)
     symbols = scope.take_symbols([*robot.parameters, *robot.variables])
-    written = write_program(program, _FUNCTIONS, symbols, scope)
+    written = write_program(program, PYTHON, symbols, scope)
     held = held_joints(facts, program)
     return PythonSection(
         reason="",

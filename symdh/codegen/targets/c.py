@@ -15,6 +15,7 @@ from symdh.codegen.c.batch import Batch, PackWriter
 from symdh.codegen.c.body import BodyWriter, Statement, takes_losses, widths
 from symdh.codegen.c.folding import WIDTH, fold
 from symdh.codegen.c.kernel import Kernel, kernel
+from symdh.codegen.calls import CALLS
 from symdh.codegen.facts import Facts, facts_of
 from symdh.codegen.forward import forward_routine
 from symdh.codegen.graph import Node, Op
@@ -31,18 +32,7 @@ from symdh.codegen.verification import CheckProgram, Poses, find_program
 from symdh.robot import Robot
 from symdh.templating import render
 
-_FUNCTIONS = {
-    Op.SIN: "sin",
-    Op.COS: "cos",
-    Op.TAN: "tan",
-    Op.ASIN: "asin",
-    Op.ACOS: "acos",
-    Op.ATAN: "atan",
-    Op.ATAN2: "atan2",
-    Op.SQRT: "sqrt",
-    Op.ABS: "fabs",
-    Op.POW: "pow",
-}
+_FUNCTIONS = CALLS | {Op.ABS: "fabs"}
 
 #: What is named after the stem of the files.
 _OWN = (

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 from sympy import Expr
 
+from symdh.codegen.calls import CALLS
 from symdh.codegen.functions import Language, required_values, write_program
-from symdh.codegen.graph import Op
 from symdh.codegen.literals import literal
 from symdh.codegen.names import file_stem, words
 from symdh.codegen.printer import Printer
@@ -21,19 +21,6 @@ from symdh.codegen.verification import CheckProgram, Poses, find_program
 from symdh.robot import Robot
 from symdh.templating import render
 
-#: Found by argument-dependent lookup, or in std.
-_CALLS = {
-    Op.SIN: "sin",
-    Op.COS: "cos",
-    Op.TAN: "tan",
-    Op.ASIN: "asin",
-    Op.ACOS: "acos",
-    Op.ATAN: "atan",
-    Op.ATAN2: "atan2",
-    Op.SQRT: "sqrt",
-    Op.ABS: "abs",
-    Op.POW: "pow",
-}
 _OWN = words("q p T J joints n_joints fk jacobian fk_jacobian Params Scalar Derived Eigen std")
 
 
@@ -45,8 +32,8 @@ class _Printer(Printer):
 
 
 _LANGUAGE = Language(
-    calls=_CALLS,
-    is_reserved=lambda n: n in _OWN or n in _CALLS.values() or is_reserved_in_c(n),
+    calls=CALLS,  # found by argument-dependent lookup, or in std
+    is_reserved=lambda n: n in _OWN or n in CALLS.values() or is_reserved_in_c(n),
     element="q[{}]",
     field="p.{}",
     printer=_Printer,
@@ -66,7 +53,7 @@ def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
         n=len(program.facts.joints),
         joint_lines=program.facts.joint_table("q[{}]"),
         using={
-            function.name: sorted(_CALLS[op] for op in function.calls)
+            function.name: sorted(CALLS[op] for op in function.calls)
             for function in program.functions
         },
     )
@@ -87,7 +74,7 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
         header=files[0].name,
         namespace=_namespace(file_stem(robot.name)),
         n=len(robot.variables),
-        rows=[[repr(x) for x in row] for row in poses.joints],
+        rows=poses.rows,
         parameters=required_values(program, poses.parameters),
     )
     compiler = find_program("c++", "g++", "clang++")

@@ -7,26 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from symdh.codegen.calls import JAVASCRIPT
 from symdh.codegen.functions import Language, required_values, write_program
-from symdh.codegen.graph import Op
 from symdh.codegen.names import file_stem, words
 from symdh.codegen.targets import GeneratedFile
 from symdh.codegen.verification import CheckProgram, Poses, find_program
 from symdh.robot import Robot
 from symdh.templating import render
-
-_CALLS = {
-    Op.SIN: "Math.sin",
-    Op.COS: "Math.cos",
-    Op.TAN: "Math.tan",
-    Op.ASIN: "Math.asin",
-    Op.ACOS: "Math.acos",
-    Op.ATAN: "Math.atan",
-    Op.ATAN2: "Math.atan2",
-    Op.SQRT: "Math.sqrt",
-    Op.ABS: "Math.abs",
-    Op.POW: "Math.pow",
-}
 
 #: Keywords of JavaScript (in modules) and TypeScript, and the globals that the module reads.
 _RESERVED = words(
@@ -43,7 +30,7 @@ _RESERVED = words(
 )
 
 
-_LANGUAGE = Language(calls=_CALLS, is_reserved=_RESERVED.__contains__, element="q[{}]")
+_LANGUAGE = Language(calls=JAVASCRIPT, is_reserved=_RESERVED.__contains__, element="q[{}]")
 
 
 def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
@@ -69,7 +56,7 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
     main = render(
         "javascript/check.mjs.jinja",
         module=files[0].name,
-        rows=[[repr(x) for x in row] for row in poses.joints],
+        rows=poses.rows,
         parameters=required_values(program, poses.parameters),
     )
     # Not called check.mjs: the table may be.

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from symdh.codegen.calls import CALLS
 from symdh.codegen.functions import Language, required_values, write_program
 from symdh.codegen.graph import Op
 from symdh.codegen.names import file_stem, words
@@ -15,18 +16,7 @@ from symdh.codegen.verification import CheckProgram, Poses, find_program
 from symdh.robot import Robot
 from symdh.templating import render
 
-_CALLS = {
-    Op.SIN: "sin",
-    Op.COS: "cos",
-    Op.TAN: "tan",
-    Op.ASIN: "asin",
-    Op.ACOS: "acos",
-    Op.ATAN: "atan",
-    Op.ATAN2: "atan",
-    Op.SQRT: "sqrt",
-    Op.ABS: "abs",
-    Op.POW: "^",
-}
+_CALLS = CALLS | {Op.ATAN2: "atan", Op.POW: "^"}
 _KEYWORDS = words(
     """
     abstract as baremodule begin break catch const continue do else elseif end export false finally
@@ -83,7 +73,7 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
         "julia/check.jl.jinja",
         file=files[0].name,
         module=_module(file_stem(robot.name)),
-        rows=[[repr(x) for x in row] for row in poses.joints],
+        rows=poses.rows,
         parameters=required_values(program, poses.parameters),
     )
     # Not called check.jl: the table may be.

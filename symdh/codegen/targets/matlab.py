@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from symdh.codegen.calls import CALLS
 from symdh.codegen.functions import Language, required_values, write_program
 from symdh.codegen.graph import Op
 from symdh.codegen.names import file_stem, words
@@ -16,18 +17,7 @@ from symdh.errors import UnsupportedError
 from symdh.robot import Robot
 from symdh.templating import render
 
-_CALLS = {
-    Op.SIN: "sin",
-    Op.COS: "cos",
-    Op.TAN: "tan",
-    Op.ASIN: "asin",
-    Op.ACOS: "acos",
-    Op.ATAN: "atan",
-    Op.ATAN2: "atan2",
-    Op.SQRT: "sqrt",
-    Op.ABS: "abs",
-    Op.POW: "realpow",
-}
+_CALLS = CALLS | {Op.POW: "realpow"}
 
 #: Keywords of MATLAB and Octave, and the functions that the files call.
 _RESERVED = words(
@@ -84,7 +74,7 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
     main = render(
         "matlab/check.m.jinja",
         function=files[0].name.removesuffix(".m"),
-        rows=[[repr(x) for x in row] for row in poses.joints],
+        rows=poses.rows,
         parameters=required_values(program, poses.parameters),
     )
     driver = GeneratedFile("symdh_check_poses.m", main)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from sympy import Symbol
 
+from symdh.codegen.calls import PYTHON
 from symdh.codegen.functions import Function, Language, write_program
 from symdh.codegen.graph import Op
 from symdh.codegen.inverse.python import PYTHON_OWN, python_context, python_section
@@ -23,18 +24,7 @@ from symdh.robot import Robot
 from symdh.templating import render
 
 #: Sine and cosine are arguments: those of `math` or of arrays. The others see parameters alone.
-_CALLS = {
-    Op.SIN: "sin",
-    Op.COS: "cos",
-    Op.TAN: "math.tan",
-    Op.ASIN: "math.asin",
-    Op.ACOS: "math.acos",
-    Op.ATAN: "math.atan",
-    Op.ATAN2: "math.atan2",
-    Op.SQRT: "math.sqrt",
-    Op.ABS: "abs",
-    Op.POW: "math.pow",
-}
+_CALLS = PYTHON | {Op.SIN: "sin", Op.COS: "cos"}
 
 #: Written down, because the list of the running Python changes with its version.
 _BUILTINS = words(
@@ -112,7 +102,7 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
     text = render(
         "python/check.py.jinja",
         stem=files[0].name.removesuffix(".py"),
-        rows=[[repr(x) for x in row] for row in poses.joints],
+        rows=poses.rows,
         parameters=list(zip(names, map(repr, poses.parameters.values()), strict=True)),
     )
     # Not called check.py: the table may be.

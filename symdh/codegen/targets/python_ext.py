@@ -90,7 +90,7 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
     main = render(
         "python/check.py.jinja",
         stem=f"{file_stem(robot.name)}_ext",
-        rows=[[repr(x) for x in row] for row in poses.joints],
+        rows=poses.rows,
         parameters=list(zip(names, map(repr, poses.parameters.values()), strict=True)),
     )
     driver = GeneratedFile("symdh_check_poses.py", main)

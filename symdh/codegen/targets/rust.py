@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from symdh.codegen.calls import CALLS
 from symdh.codegen.functions import Function, Language, write_program
 from symdh.codegen.graph import Op
 from symdh.codegen.names import file_stem, words
@@ -30,18 +31,7 @@ class _Passed:
 
 
 #: Sine and cosine come as one, and `core` has an absolute value.
-_CALLS = {
-    Op.SIN: "sin",
-    Op.COS: "cos",
-    Op.TAN: "tan",
-    Op.ASIN: "asin",
-    Op.ACOS: "acos",
-    Op.ATAN: "atan",
-    Op.ATAN2: "atan2",
-    Op.SQRT: "sqrt",
-    Op.ABS: "f64::abs",
-    Op.POW: "powf",
-}
+_CALLS = CALLS | {Op.ABS: "f64::abs", Op.POW: "powf"}
 _SIN_COS = _Passed("sin_cos", 1, "f64::sin_cos", "libm::sincos")
 _PASSED = {
     Op.SIN: _SIN_COS,
@@ -115,7 +105,7 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
         has_parameters=bool(program.parameters),
         passed=_passed(program.functions[0]),
         n=len(robot.variables),
-        rows=[[repr(x) for x in row] for row in poses.joints],
+        rows=poses.rows,
         parameters=[repr(value) for value in poses.parameters.values()],
     )
     compiler = find_program("rustc")

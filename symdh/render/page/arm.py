@@ -8,7 +8,8 @@ from typing import Any
 
 from sympy import Expr, Symbol, pi
 
-from symdh.codegen.graph import Graph, Op
+from symdh.codegen.calls import JAVASCRIPT
+from symdh.codegen.graph import Graph
 from symdh.codegen.lowering import Lowering
 from symdh.codegen.printer import Printer
 from symdh.derivation.drawing.numbers import UNKNOWN_LENGTH, known_numbers, stand_ins
@@ -20,18 +21,6 @@ from symdh.notation.nodes import Name
 from symdh.render.unicode_math import UnicodeWriter
 from symdh.robot import AngleUnit, Convention, JointType, Motion, MotionKind, Robot
 
-_FUNCTIONS = {
-    Op.SIN: "Math.sin",
-    Op.COS: "Math.cos",
-    Op.TAN: "Math.tan",
-    Op.ASIN: "Math.asin",
-    Op.ACOS: "Math.acos",
-    Op.ATAN: "Math.atan",
-    Op.ATAN2: "Math.atan2",
-    Op.SQRT: "Math.sqrt",
-    Op.ABS: "Math.abs",
-    Op.POW: "Math.pow",
-}
 _LETTERS = {("R", 2): "θ", ("T", 2): "d", ("T", 0): "a", ("R", 0): "α"}
 
 
@@ -89,7 +78,7 @@ def _code(robot: Robot, amount: Expr) -> str:
     names = {
         graph.symbol(symbol): f"v[{json.dumps(symbol.name)}]" for symbol in amount.free_symbols
     }
-    return Printer(_FUNCTIONS, names).expression(node)
+    return Printer(JAVASCRIPT, names).expression(node)
 
 
 def _sliders(robot: Robot) -> Iterable[dict[str, Any]]:
