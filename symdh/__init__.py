@@ -21,31 +21,41 @@ from symdh.errors import (
 )
 
 if TYPE_CHECKING:
-    from symdh.interface import (
-        Choices,
-        Derivation,
-        Drawing,
+    from symdh.interface.arm import (
         ForwardKinematics,
         Robot,
-        derive,
-        draw,
         forward_kinematics,
         load,
         loads,
     )
+    from symdh.interface.documents import Choices, Derivation, Drawing, derive, draw
+    from symdh.interface.inverse import Answer, InverseKinematics, inverse_kinematics
+    from symdh.interface.motion import (
+        GeometricJacobian,
+        Singularities,
+        jacobian,
+        singularities,
+    )
     from symdh.robot import Convention, Joint, JointType, Limits, Motion, Units
 
 _HOME = {
-    "Choices": "symdh.interface",
-    "Derivation": "symdh.interface",
-    "Drawing": "symdh.interface",
-    "ForwardKinematics": "symdh.interface",
-    "Robot": "symdh.interface",
-    "derive": "symdh.interface",
-    "draw": "symdh.interface",
-    "forward_kinematics": "symdh.interface",
-    "load": "symdh.interface",
-    "loads": "symdh.interface",
+    "ForwardKinematics": "symdh.interface.arm",
+    "Robot": "symdh.interface.arm",
+    "forward_kinematics": "symdh.interface.arm",
+    "load": "symdh.interface.arm",
+    "loads": "symdh.interface.arm",
+    "Choices": "symdh.interface.documents",
+    "Derivation": "symdh.interface.documents",
+    "Drawing": "symdh.interface.documents",
+    "derive": "symdh.interface.documents",
+    "draw": "symdh.interface.documents",
+    "Answer": "symdh.interface.inverse",
+    "InverseKinematics": "symdh.interface.inverse",
+    "inverse_kinematics": "symdh.interface.inverse",
+    "GeometricJacobian": "symdh.interface.motion",
+    "Singularities": "symdh.interface.motion",
+    "jacobian": "symdh.interface.motion",
+    "singularities": "symdh.interface.motion",
     "Convention": "symdh.robot",
     "Joint": "symdh.robot",
     "JointType": "symdh.robot",
@@ -55,12 +65,15 @@ _HOME = {
 }
 
 __all__ = [
+    "Answer",
     "Choices",
     "Convention",
     "Derivation",
     "DerivationError",
     "Drawing",
     "ForwardKinematics",
+    "GeometricJacobian",
+    "InverseKinematics",
     "Joint",
     "JointType",
     "LimitError",
@@ -69,6 +82,7 @@ __all__ = [
     "OutputError",
     "ReadError",
     "Robot",
+    "Singularities",
     "SymdhError",
     "TableError",
     "Units",
@@ -77,8 +91,11 @@ __all__ = [
     "derive",
     "draw",
     "forward_kinematics",
+    "inverse_kinematics",
+    "jacobian",
     "load",
     "loads",
+    "singularities",
 ]
 
 

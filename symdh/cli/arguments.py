@@ -5,8 +5,6 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from symdh.errors import UnsupportedError
-
 if TYPE_CHECKING:
     from sympy import Expr, Symbol
 
@@ -49,15 +47,9 @@ def joint(robot: Robot, name: str) -> Symbol:
     UnsupportedError
         When the robot has none of that name.
     """
-    from sympy import Symbol
+    from symdh.table.names import joint_variable
 
-    from symdh.table.names import canonical_name
-
-    variable = Symbol(canonical_name(as_utf8(name).strip()), real=True)
-    if variable not in robot.variables:
-        known = ", ".join(each.name for each in robot.variables)
-        raise UnsupportedError(f"{name} is no joint variable of {robot.name}; these are: {known}")
-    return variable
+    return joint_variable(robot, as_utf8(name))
 
 
 def as_utf8(argument: str) -> str:

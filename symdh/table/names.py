@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import re
 
+from sympy import Symbol
+
+from symdh.errors import UnsupportedError
+from symdh.robot import Robot
 from symdh.table.units import ANGLE_UNITS
 
 MAX_NAME = 40
@@ -52,3 +56,19 @@ def why_reserved(name: str) -> str | None:
     if name.lower() in NOT_NUMBERS:
         return f"{name} is a reserved name and not a number"
     return None
+
+
+def joint_variable(robot: Robot, written: str) -> Symbol:
+    """Return the joint variable that somebody names, in any spelling.
+
+    Raises
+    ------
+    UnsupportedError
+        When the robot has none of that name.
+    """
+    name = canonical_name(written.strip())
+    for variable in robot.variables:
+        if variable.name == name:
+            return variable
+    known = ", ".join(each.name for each in robot.variables)
+    raise UnsupportedError(f"{written} is no joint variable of {robot.name}; these are: {known}")

@@ -103,7 +103,8 @@ def ik(
     values there are and where it fails. Where there is no closed form, says what was tried and
     solves by search.
 
-    With --pose, or with --set for all joints, prints all solutions of that pose.
+    With --pose, or with --set for the joints that the table has no value for, prints all
+    solutions of that pose.
     """
     from symdh.kinematics.inverse.inverse import inverse_kinematics
 
@@ -130,7 +131,13 @@ def _solved(
     values: Mapping[Symbol, Expr],
     seeds: Mapping[Symbol, Expr],
 ) -> Solved | None:
-    """Solve for the pose that was given, or that the joint values give; None without any."""
+    """Solve for the pose that was given, or that the joint values give; None without any.
+
+    Raises
+    ------
+    UnsupportedError
+        When some joints were given values and others have none.
+    """
     from symdh.derivation.inverse import Solved
     from symdh.kinematics.frame import first_frame, last_frame
     from symdh.kinematics.inverse.goal import goal_of
@@ -145,7 +152,7 @@ def _solved(
         if with_angle and robot.units.angle is not AngleUnit.RADIAN:
             numbers[-1] = radians(numbers[-1])
         goal = goal_of(found.task, numbers)
-    elif set(robot.variables) <= set(values):
+    elif set(values) & set(robot.variables) - set(found.locked):
         goal = pose_of(robot, first_frame(robot), last_frame(robot), values)
     else:
         return None

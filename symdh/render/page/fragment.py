@@ -9,7 +9,7 @@ from __future__ import annotations
 from markupsafe import Markup
 
 from symdh.derivation import table
-from symdh.derivation.blocks import Document
+from symdh.derivation.blocks import Chapter, Document
 from symdh.derivation.derive import subtitle
 from symdh.derivation.style import Style
 from symdh.render.page.page import page_layout
@@ -30,6 +30,11 @@ def document_fragment(document: Document) -> str:
             for chapter in document.chapters
         ],
     )
+
+
+def chapter_fragment(chapter: Chapter) -> str:
+    """Write one chapter as a ``div``, with its heading."""
+    return document_fragment(Document(title="", subtitle=(), chapters=(chapter,)))
 
 
 def table_fragment(robot: Robot) -> str:

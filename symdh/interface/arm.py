@@ -1,29 +1,18 @@
-"""The Python face: a robot that can be asked for its transforms."""
+"""A robot that can be asked for its transforms."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import fields
 from pathlib import Path
-from typing import Any, TypeVar
 
-from sympy import Expr, ImmutableMatrix, Symbol
+from sympy import ImmutableMatrix
 
 from symdh import robot as model
-from symdh.derivation import derive as documents
-from symdh.derivation.blocks import Document
-from symdh.derivation.drawing import draw as drawings
-from symdh.derivation.drawing import shapes
-from symdh.derivation.drawing.choices import DEFAULT, NO_VALUES, Choices
-from symdh.derivation.style import Naming, Order
+from symdh.interface.shown import shown_as
 from symdh.kinematics import forward
 from symdh.kinematics.frame import Frame, first_frame, last_frame
-from symdh.render.drawing.svg import render_svg
 from symdh.render.latex import render_transform
-from symdh.render.page.fragment import document_fragment, table_fragment
+from symdh.render.page.fragment import table_fragment
 from symdh.table import load_table, loads_table
-
-Shown = TypeVar("Shown")
 
 
 class Robot(model.Robot):
@@ -47,7 +36,7 @@ class Robot(model.Robot):
     @classmethod
     def of(cls, robot: model.Robot) -> Robot:
         """Return the same robot with this interface."""
-        return _as(cls, robot)
+        return shown_as(cls, robot)
 
     def A(self, i: int) -> ImmutableMatrix:
         """Return the exact 4x4 transform of row `i`, counted from 1.
@@ -86,20 +75,6 @@ class Robot(model.Robot):
         return forward_kinematics(self)._repr_latex_()
 
 
-class Derivation(Document):
-    """A derivation, chapter by chapter; a notebook shows all of it."""
-
-    def _repr_html_(self) -> str:
-        return document_fragment(self)
-
-
-class Drawing(shapes.Drawing):
-    """A line drawing of an arm; a notebook shows it."""
-
-    def _repr_svg_(self) -> str:
-        return render_svg(self)
-
-
 class ForwardKinematics(forward.ForwardKinematics):
     """The result of `forward_kinematics`; shows its pose in a notebook."""
 
@@ -135,62 +110,4 @@ def loads(text: str | bytes) -> Robot:
 
 def forward_kinematics(robot: model.Robot) -> ForwardKinematics:
     """Derive the link transforms and the pose of the whole chain of a robot."""
-    return _as(ForwardKinematics, forward.forward_kinematics(robot))
-
-
-def derive(
-    robot: model.Robot, order: Order | str = Order.RIGHT, naming: Naming | str = Naming.AUTO
-) -> Derivation:
-    """Derive the forward kinematics of a robot, every step of it.
-
-    Parameters
-    ----------
-    robot : Robot
-    order : str
-        ``"right"`` multiplies from the hand to the base, ``"left"`` from the base to the hand.
-    naming : str
-        How a pose is written: ``"standard"``, ``"craig"`` or ``"auto"``.
-    """
-    return _as(Derivation, documents.derive(robot, order, naming))
-
-
-def draw(
-    robot: model.Robot, values: Mapping[Symbol, Expr] = NO_VALUES, choices: Choices = DEFAULT
-) -> Drawing:
-    """Draw the skeleton of an arm with its joints, frames and dimensions.
-
-    Parameters
-    ----------
-    robot : Robot
-    values : mapping of Symbol to Expr
-        Numbers to draw with, radians and the table's length unit; they win over the table's own.
-    choices : Choices
-        The direction to look from and what is drawn.
-
-    Raises
-    ------
-    LimitError
-        When the robot has too many rows for a picture.
-    UnsupportedError
-        When the numbers make a length or an angle infinite or complex.
-    """
-    return _as(Drawing, drawings.draw(robot, values, choices))
-
-
-def _as(kind: type[Shown], plain: Any) -> Shown:
-    """Return a plain result as the kind that shows itself."""
-    return kind(**{field.name: getattr(plain, field.name) for field in fields(plain)})
-
-
-__all__ = [
-    "Choices",
-    "Derivation",
-    "Drawing",
-    "ForwardKinematics",
-    "Robot",
-    "derive",
-    "draw",
-    "forward_kinematics",
-    "load",
-    "loads",
-]
+    return shown_as(ForwardKinematics, forward.forward_kinematics(robot))

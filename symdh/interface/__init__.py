@@ -1,0 +1,1 @@
+"""The Python face: robots that can be asked, results that show themselves in a notebook."""
