@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
 
-from sympy import Add, Expr, Integer, Mul, Symbol
+from sympy import Add, Expr, Mul, Symbol
 
-from symdh.derivation.blocks import Inline
+from symdh.derivation.inverse.formulas import beside, inverses, terms
 from symdh.derivation.style import Style
 from symdh.kinematics.inverse.branches import Branches
 from symdh.kinematics.inverse.pool import Source
@@ -18,15 +17,11 @@ from symdh.notation.nodes import (
     Equation,
     Fraction,
     Generic,
-    Juxtaposed,
     Name,
     Negative,
     Node,
     Number,
-    Power,
-    Rounded,
     Sum,
-    Tuple,
 )
 from symdh.notation.writing import weight
 
@@ -77,8 +72,8 @@ class Writer:
             (given if goal else rest)[powers] = coefficient
         parts = [part for part in (make(given), make(rest)) if part]
         parts.sort(key=lambda part: all(coefficient < 0 for coefficient in part.values()))
-        terms = [term for part in parts for term in _terms(self.element(part))]
-        return self.element(element) if len(parts) < 2 else Sum(tuple(terms))
+        written = [term for part in parts for term in terms(self.element(part))]
+        return self.element(element) if len(parts) < 2 else Sum(tuple(written))
 
     def nested(self, element: Element) -> Node:
         """Write an element with common factors taken out: ``(r_13 c_1 + r_23 s_1) c_23 + ..``."""
@@ -204,51 +199,10 @@ class Writer:
         i_0, j_0 = source.base
         if source.inverted:
             before, after = self.links(source.j, j_0), self.links(i_0, source.i)
-            left = (*before, Power(self.goal_matrix(source), _MINUS), *after)
-            right = _inverses(self.links(source.i, source.j))
+            left = (*before, *inverses((self.goal_matrix(source),)), *after)
+            right = inverses(self.links(source.i, source.j))
         else:
             before, after = self.links(i_0, source.i), self.links(source.j, j_0)
-            left = (*_inverses(before), self.goal_matrix(source), *_inverses(after))
+            left = (*inverses(before), self.goal_matrix(source), *inverses(after))
             right = self.links(source.i, source.j)
-        return Equation((_beside(left), _beside(right)))
-
-
-_MINUS = Integer(-1)
-
-
-def _inverses(names: Sequence[Node]) -> tuple[Node, ...]:
-    return tuple(Power(name, _MINUS) for name in reversed(names))
-
-
-def _beside(names: Sequence[Node]) -> Node:
-    return names[0] if len(names) == 1 else Juxtaposed(tuple(names))
-
-
-def _terms(node: Node) -> tuple[Node, ...]:
-    """Return the terms of a sum, its sign taken into the brackets."""
-    if isinstance(node, Negative):
-        return tuple(
-            term.node if isinstance(term, Negative) else Negative(term)
-            for term in _terms(node.node)
-        )
-    return node.terms if isinstance(node, Sum) else (node,)
-
-
-def place(entry: tuple[int, int]) -> Node:
-    """Return the place of an entry, counted from 1."""
-    return Tuple(tuple(Rounded(str(k + 1)) for k in entry))
-
-
-def is_zero(node: Node) -> bool:
-    """Say whether a node is the number zero."""
-    return isinstance(node, Number) and node.value == 0
-
-
-def listed(items: Sequence[Node]) -> tuple[Inline, ...]:
-    """Return formulas as running text: a, b and c."""
-    told: list[Inline] = []
-    for position, item in enumerate(items):
-        if position:
-            told.append(" and " if position == len(items) - 1 else ", ")
-        told.append(item)
-    return tuple(told)
+        return Equation((beside(left), beside(right)))
