@@ -12,8 +12,10 @@ from symdh.derivation.blocks import (
     Paragraph,
     Text,
 )
+from symdh.derivation.inverse.arm import link_matrices, the_arm
 from symdh.derivation.inverse.given import given as what_is_given
-from symdh.derivation.inverse.names import Writer
+from symdh.derivation.inverse.known_parts import is_told
+from symdh.derivation.inverse.names import Writer, goal_letters
 from symdh.derivation.inverse.no_closed_form import without_closed_form
 from symdh.derivation.inverse.numbers import Solved, numbers_chapter
 from symdh.derivation.inverse.solutions import solutions
@@ -54,14 +56,19 @@ def inverse_document(
 
 
 def _derivation(found: InverseKinematics, form: ClosedForm, naming: Naming) -> list[Chapter]:
-    style = Style(form.arm.robot, naming=naming)
+    style = Style(form.arm.robot, naming=naming, leading=goal_letters(form))
     writer = Writer(style, form, branches_of(form))
-    steps = [step_chapter(writer, step) for step in form.steps]
-    given = what_is_given(found, form, writer)
-    meanings = legend(style, [node for chapter in steps for node in _formulas(chapter.blocks)])
-    if meanings is not None:
-        given = Chapter(given.title, (*given.blocks, meanings))
-    return [given, *steps, solutions(form, writer)]
+    steps = [step_chapter(writer, step) for step in form.steps if is_told(form, step)]
+    links = link_matrices(form, writer)
+    formulas = [node for chapter in steps for node in _formulas(chapter.blocks)]
+    meanings = legend(style, [*formulas, *(each.matrix for each in links.matrices)])
+    return [
+        the_arm(form, writer),
+        what_is_given(found, form, writer),
+        Chapter("The links", (*([] if meanings is None else [meanings]), links)),
+        *steps,
+        solutions(form, writer),
+    ]
 
 
 def _formulas(blocks: Sequence[Block]) -> list[Node]:

@@ -47,15 +47,6 @@ def beside(names: Sequence[Node]) -> Node:
     return names[0] if len(names) == 1 else Juxtaposed(tuple(names))
 
 
-def terms(node: Node) -> tuple[Node, ...]:
-    """Return the terms of a sum, its sign taken into the brackets."""
-    if isinstance(node, Negative):
-        return tuple(
-            term.node if isinstance(term, Negative) else Negative(term) for term in terms(node.node)
-        )
-    return node.terms if isinstance(node, Sum) else (node,)
-
-
 def place(entry: tuple[int, int]) -> Node:
     """Return the place of an entry, counted from 1."""
     return Tuple(tuple(Rounded(str(k + 1)) for k in entry))

@@ -14,12 +14,13 @@ from symdh.derivation.blocks import (
     Paragraph,
 )
 from symdh.derivation.inverse.formulas import listed
+from symdh.derivation.inverse.known_parts import is_told
 from symdh.derivation.inverse.names import Writer
 from symdh.derivation.inverse.structure import structure_notes
 from symdh.derivation.words import counted
 from symdh.kinematics.inverse.inverse import InverseKinematics
-from symdh.kinematics.inverse.solution import ClosedForm, Rule
-from symdh.kinematics.inverse.task import Kind
+from symdh.kinematics.inverse.solution import ClosedForm
+from symdh.kinematics.inverse.task import InverseTask, Kind
 from symdh.notation.nodes import (
     Generic,
     Juxtaposed,
@@ -30,47 +31,59 @@ from symdh.notation.nodes import (
     Sum,
 )
 
+#: What is given, in words.
+_GIVEN = {
+    Kind.POSE: "the pose of the hand, its position and its orientation",
+    Kind.POSITION: "the position of the hand, {coordinates}",
+    Kind.PLANAR: "the position of the hand, {coordinates}, and the angle phi that it is turned by",
+    Kind.ORIENTATION: "the orientation of the hand",
+}
+
 
 def given(found: InverseKinematics, form: ClosedForm, writer: Writer) -> Chapter:
     """Say what is known, what is wanted, and what helps."""
     arm, task = form.arm, form.task
     wanted = [Name(v.name) for v in arm.robot.variables]
-    chosen = "as asked for" if task.named else "as fits the arm"
-    joints = counted(len(arm.moving), "joint")
     goal = Generic("T" if arm.is_shifted else "G")
     blocks: list[Block] = [
         Paragraph(
             (
-                *(f"Wanted: {joints}, ", *listed(wanted), f". Given: {task.description}"),
-                *(f" ({chosen})", _reachable(form), ", so that all of this is known:"),
+                *(f"Wanted: {counted(len(arm.moving), 'joint')}, ", *listed(wanted), ". Given: "),
+                *(_GIVEN[task.kind].format(coordinates=_coordinates(task)), _reachable(form)),
+                ". So all of this is known:",
             )
         ),
         NamedMatrix((goal, _chain_name(writer)), _goal_matrix(form, "p")),
     ]
-    if task.kind is Kind.POSITION:
+    if not task.whole_pose or len(task.axes) < 3:
         blocks.append(Paragraph(("A star stands for what is not given.",)))
     blocks += _ends(form, writer, goal)
-    blocks += _letters(form, writer)
-    blocks += _shifted(form, writer)
     if arm.locked:
         held = listed([Name(v.name) for v in arm.locked])
         verb = "is" if len(arm.locked) == 1 else "are"
         blocks.append(Paragraph((*held, f" {verb} locked and known.")))
     blocks += [Paragraph(note) for note in structure_notes(found.structure)]
     blocks += _sums(form, writer)
+    blocks += _shifted(form, writer)
     blocks += _seen_from_the_hand(form, writer)
     order = [
         writer.unknown(step.unknown)
         for step in form.steps
-        if not step.definitions and not (step.rule is Rule.SUM and writer.is_sum(step.unknown))
+        if not step.definitions and is_told(form, step)
     ]
-    blocks.append(Paragraph(("The unknowns are found in the order ", *listed(order), ".")))
+    if len(order) > 1:
+        blocks.append(Paragraph(("The unknowns are found in the order ", *listed(order), ".")))
     return Chapter("What is given", tuple(blocks))
+
+
+def _coordinates(task: InverseTask) -> str:
+    *others, last = ["xyz"[axis] for axis in task.axes] or [""]
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 def _sums(form: ClosedForm, writer: Writer) -> list[Block]:
     """Say what the unknowns are that are sums of joint angles."""
-    found = [step.unknown for step in form.steps if not step.definitions]
+    found = [s.unknown for s in form.steps if not s.definitions and is_told(form, s)]
     rows = tuple(
         EntryStep(
             writer.unknown(unknown),
@@ -80,7 +93,10 @@ def _sums(form: ClosedForm, writer: Writer) -> list[Block]:
         for unknown in sorted(set(found))
         if form.ring.is_angle(unknown) and writer.is_sum(unknown)
     )
-    return [EntrySteps(rows)] if rows else []
+    if not rows:
+        return []
+    lead = "An unknown of its own is" if len(rows) == 1 else "Unknowns of their own are"
+    return [Paragraph((lead,)), EntrySteps(rows)]
 
 
 def _reachable(form: ClosedForm) -> str:
@@ -127,19 +143,6 @@ def _ends(form: ClosedForm, writer: Writer, goal: Node) -> list[Block]:
     return blocks
 
 
-def _letters(form: ClosedForm, writer: Writer) -> list[Block]:
-    """Say what the letters stand for that the table does not have."""
-    meanings = form.arm.meanings
-    if not meanings:
-        return []
-    style = writer.style
-    rows = tuple(
-        EntryStep(style.notation.write(letter), (style.figures.write(meaning),), None)
-        for letter, meaning in meanings.items()
-    )
-    return [Paragraph(("Letters stand for the numbers of the table:",)), EntrySteps(rows)]
-
-
 def _shifted(form: ClosedForm, writer: Writer) -> list[Block]:
     """Give w where offsets at the ends were taken off p, and the goal with it."""
     arm, ring = form.arm, form.ring
@@ -168,7 +171,8 @@ def _shifted(form: ClosedForm, writer: Writer) -> list[Block]:
         "what follows ",
         *listed(list(dict.fromkeys(ends))),
         " is without it" if one else " stand without them",
-        ", and the position is that of the point w:",
+        ", and the position is that of the point w",
+        ", the centre of the wrist:" if form.structure.wrist else ":",
     ]
     known = NamedMatrix((Generic("G"), _chain_name(writer)), _goal_matrix(form, "w"))
     return [

@@ -31,14 +31,34 @@ def half_angle(telling: Telling) -> list[Block]:
     """Get rid of one of two angles and solve for the tangent of half the other."""
     step, writer = telling.step, telling.writer
     write = writer.expression
-    y, x = step.unknown, step.eliminated
-    assert x is not None
+    y = step.unknown
+    half = Fraction(writer.unknown(y), write(Integer(2)))
+    degree = "quartic" if step.branches == 4 else f"polynomial of degree {step.branches}"
+    return [
+        *([] if step.eliminated is None else _eliminated(telling, step.eliminated)),
+        Paragraph(
+            (
+                *("With ", equation(_T, Call("tan", (half,))), ", "),
+                *(equation(write(writer.cosine(y)), _QUOTIENT_C), " and "),
+                *(equation(write(writer.sine(y)), _QUOTIENT_S), ", this is a "),
+                *(f"{degree} in ", _T, ". Each real root gives one value "),
+                equation(writer.unknown(y), Product((write(Integer(2)), Call("atan", (_T,))))),
+                ".",
+            )
+        ),
+    ]
+
+
+def _eliminated(telling: Telling, x: int) -> list[Block]:
+    """Eliminate an angle of two equations."""
+    step, writer = telling.step, telling.writer
+    write = writer.expression
+    y = step.unknown
     a_1, b_1, c_1 = telling.linear(step.coefficients[:3])
     a_2, b_2, c_2 = telling.linear(step.coefficients[3:])
     rows = telling.rows(((a_1, b_1, c_1), (a_2, b_2, c_2)), writer.sine(x), writer.cosine(x))
+    new = list(telling.new)
     told = telling.introduced()
-    if told:
-        told[0] = Paragraph(("In these, ", writer.unknown(y), " is the only unknown:"))
     if step.scales:
         l_1, l_2 = (writer.form.ring.expression(scale) for scale in step.scales)
         left: Node = Sum(tuple(squared(writer.quotient(c, s)) for c, s in ((c_1, l_1), (c_2, l_2))))
@@ -50,10 +70,7 @@ def half_angle(telling: Telling) -> list[Block]:
         why = (
             *("The left sides are ", write(l_1), " and ", write(l_2)),
             *(" times the components of one vector along perpendicular directions. "),
-            *(
-                "Divided by these, squared and added, they are its length, and ",
-                writer.unknown(x),
-            ),
+            *("Divided by these, squared and added, they are its length, and ", writer.unknown(x)),
             " drops out:",
         )
     else:
@@ -63,25 +80,19 @@ def half_angle(telling: Telling) -> list[Block]:
             *("Solved for the sine and the cosine of ", writer.unknown(x)),
             *(", whose squares add up to 1, these give"),
         )
-    t = Generic("t")
-    half = Fraction(writer.unknown(y), write(Integer(2)))
-    degree = "quartic" if step.branches == 4 else f"polynomial of degree {step.branches}"
+    both = (*("two equations that hold ", writer.unknown(x), " and ", writer.unknown(y)), " alone:")
+    if told:
+        what = "a letter for what" if len(new) == 1 else "letters for what is known or"
+        told[0] = Paragraph((f"With {what} holds ", writer.unknown(y), " as its only unknown,"))
+        lead = Paragraph(("there are ", *both))
+    else:
+        lead = Paragraph(("These are ", *both))
     return [
-        Paragraph(("Both hold ", writer.unknown(x), " and ", writer.unknown(y), " alone:")),
-        EntrySteps(rows),
         *told,
+        lead,
+        EntrySteps(rows),
         Paragraph(why),
         EntrySteps((EntryStep(left, (right,), None),)),
-        Paragraph(
-            (
-                *("With ", equation(t, Call("tan", (half,))), ", "),
-                *(equation(write(writer.cosine(y)), _QUOTIENT_C), " and "),
-                *(equation(write(writer.sine(y)), _QUOTIENT_S), ", this is a "),
-                *(f"{degree} in ", t, ". Each real root gives one value "),
-                equation(writer.unknown(y), Product((write(Integer(2)), Call("atan", (t,))))),
-                ".",
-            )
-        ),
     ]
 
 

@@ -17,6 +17,7 @@ from symdh.derivation.blocks import (
     ParameterTable,
     Text,
 )
+from symdh.derivation.inverse.solutions import NUMBER
 from symdh.derivation.style import Style
 from symdh.derivation.words import counted
 from symdh.kinematics.inverse.branches import Branches, branches_of
@@ -92,7 +93,7 @@ def numbers_chapter(found: InverseKinematics, solved: Solved) -> Chapter:
     unit = "radians" if robot.units.angle is AngleUnit.RADIAN else "degrees"
     blocks.append(Paragraph((f"It has {counted(count, 'solution')}, angles in {unit}:",)))
     turning = {j.variable for j in robot.joints if j.type.value == "revolute"}
-    header: tuple[Node, ...] = (Generic("k"), *(Name(v.name) for v in robot.variables))
+    header: tuple[Node, ...] = (NUMBER, *(Name(v.name) for v in robot.variables))
     rows: list[tuple[Node, ...]] = []
     for k, answer in enumerate(solved.answers, start=1):
         pairs = zip(robot.variables, answer.q, strict=True)

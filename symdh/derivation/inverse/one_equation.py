@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sympy import Integer, atan2, pi, sqrt
+from sympy import Expr, Integer, atan2, pi, sqrt
 
 from symdh.derivation.blocks import Block, Display, EntryStep, EntrySteps, Paragraph
 from symdh.derivation.inverse.formulas import equation, plus
@@ -65,27 +65,24 @@ def arc(telling: Telling) -> list[Block]:
 
 def sine_cosine(telling: Telling) -> list[Block]:
     """Solve ``A s + B c + C = 0`` by one angle psi."""
-    a, b, c = telling.linear(telling.step.coefficients)
-    known = -c
-    writer = telling.writer
+    writer, unknown_angle = telling.writer, telling.step.unknown
+    a, b, known, swapped = _reduced(telling)
     s, cosine = telling.trigonometric()
     rho, psi = writer.letter("rho"), writer.letter("psi")
     write = writer.expression
-    unknown = writer.unknown(telling.step.unknown)
+    unknown = writer.unknown(unknown_angle)
     inner = Sum((unknown, Negative(write(psi))))
     root = sqrt(rho**2 - known**2)
+    turned = write(atan2(root, known, evaluate=False))
+    signs = (-1, 1) if swapped else (1, -1)
     rows = [
-        EntryStep(
-            writer.unknown(telling.step.unknown, str(k)),
-            (plus(write(psi), write(atan2(root, known, evaluate=False)), sign),),
-            None,
-        )
-        for k, sign in ((1, 1), (2, -1))
+        EntryStep(writer.unknown(unknown_angle, str(k)), (plus(write(psi), turned, sign),), None)
+        for k, sign in enumerate(signs, start=1)
     ]
     return [
         *telling.restated(equation(write(a * s + b * cosine), write(known))),
         *telling.polar(rho, psi, a, b),
-        Paragraph(("the left side is one cosine:",)),
+        Paragraph(("and the left side becomes one cosine:",)),
         Display(equation(Product((write(rho), Call("cos", (inner,)))), write(known))),
         *solution(*rows),
         Paragraph(
@@ -95,5 +92,27 @@ def sine_cosine(telling: Telling) -> list[Block]:
                 *(stretched(telling), "."),
             )
         ),
-        *free(telling, a, b),
+        *free(telling, a, b, known),
     ]
+
+
+def _reduced(telling: Telling) -> tuple[Expr, Expr, Expr, bool]:
+    """Return A, B and -C with a common length divided out and what the goal gives positive.
+
+    The last value says whether that turns the equation round, which swaps the two solutions.
+    """
+    writer, ring = telling.writer, telling.writer.form.ring
+    a, b, c = telling.step.coefficients
+    turned = writer.is_negative(-c)
+    if turned:
+        a, b, c = -a, -b, -c
+    common = a.gcd(b)
+    if len(common) != 1 or not ring.is_constant(common) or common in (ring.one, -ring.one):
+        short_a, short_b, short_c = telling.linear((a, b, c))
+        return short_a, short_b, -short_c, turned
+    if common.LC < 0:
+        common = -common
+    if writer.sign_of(common) < 0:
+        turned = not turned
+    short_a, short_b = (writer.short(part.exquo(common), telling.new) for part in (a, b))
+    return short_a, short_b, writer.quotient_letter(-c, common, telling.new), turned

@@ -117,4 +117,5 @@ def _compared(entries: Sequence[tuple[int, int]]) -> tuple[Inline, ...]:
 
 def _compared_again(entries: Sequence[tuple[int, int]], title: str) -> tuple[Inline, ...]:
     """Say which entries are taken that an earlier step has compared."""
-    return (f"As compared for {title}, at ", *listed([place(entry) for entry in entries]), ":")
+    places = listed([place(entry) for entry in entries])
+    return ("The entries at ", *places, f" have been compared for {title}:")

@@ -15,10 +15,11 @@ def slide(telling: Telling) -> list[Block]:
     writer, ring = telling.writer, telling.writer.form.ring
     a, c = telling.step.coefficients
     row = EntryStep(writer.unknown(telling.step.unknown), (writer.quotient_of(-c, a),), None)
-    blocks = solution(row)
+    blocks = [] if telling.has_written(row) else solution(row)
     if not ring.is_constant(a):
-        shown = writer.element(a)
-        blocks.append(Paragraph(("Where ", shown, " is zero this says nothing.")))
+        zero = ("Where ", writer.element(a), " is zero, this says nothing of ", row.name)
+        other = "; there another entry may." if telling.step.alternatives else "."
+        blocks.append(Paragraph((*zero, other)))
     return blocks
 
 

@@ -16,10 +16,13 @@ from symdh.derivation.words import number_word
 from symdh.kinematics.inverse.branches import Branches
 from symdh.kinematics.inverse.solution import ClosedForm
 from symdh.notation.nodes import (
-    Generic,
     Node,
     Rounded,
+    Words,
 )
+
+#: The head of the column that counts solutions; a letter might stand for something else.
+NUMBER = Words("no.")
 
 
 def solutions(form: ClosedForm, writer: Writer) -> Chapter:
@@ -34,24 +37,27 @@ def solutions(form: ClosedForm, writer: Writer) -> Chapter:
         f"The branches make a tree: {factors} is {total}, so there are at most {total} solutions. "
         if len(steps) > 1
         else f"There are at most {total} solutions. ",
-        "Forward kinematics decides on each; those out of reach or false are left out.",
+        "In each the other unknowns have one value. Forward kinematics decides; solutions that are "
+        "out of reach or false are left out.",
     )
-    header = (Generic("k"), *(writer.unknown(step.unknown) for step in steps))
+    combinations = list(product(*(range(step.branches) for step in steps)))
+    named = [_names_of(writer.branches, taken) for taken in combinations]
+    header: list[Node] = [NUMBER, *(writer.unknown(step.unknown) for step in steps)]
+    header += [Words("posture")] if any(named) else []
     rows: list[tuple[Node, ...]] = []
     notes: list[Text] = []
-    for k, taken in enumerate(product(*(range(step.branches) for step in steps)), start=1):
-        cells = (
+    for k, (taken, names) in enumerate(zip(combinations, named, strict=True), start=1):
+        cells = [
             writer.unknown(step.unknown, str(branch + 1))
             for step, branch in zip(steps, taken, strict=True)
-        )
+        ]
+        cells += [Words(", ".join(names))] if any(named) else []
         rows.append((Rounded(str(k)), *cells))
-        names = _names_of(writer.branches, taken)
-        notes += [(f"{k}: {', '.join(names)}.",)] if names else []
     open_ = [f"{names[0]} or {names[1]}" for names in _undecided(writer.branches)]
     if open_:
         notes.append((f"Whether a solution is {' and '.join(open_)} depends on the goal.",))
     return Chapter(
-        "The solutions", (Paragraph(lead), ParameterTable(header, tuple(rows), tuple(notes)))
+        "The solutions", (Paragraph(lead), ParameterTable(tuple(header), tuple(rows), tuple(notes)))
     )
 
 

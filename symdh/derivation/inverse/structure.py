@@ -13,7 +13,11 @@ from symdh.kinematics.inverse.structure import Structure
 def structure_notes(shape: Structure) -> list[Text]:
     """Return sentences on axes that are parallel or meet."""
     notes: list[Text] = []
-    if shape.wrist is not None:
+    if shape.wrist is not None and shape.wrist == shape.shoulder:
+        notes.append(
+            (f"The axes of joints {_rows(shape.wrist)} meet in one point, which no joint moves.",)
+        )
+    elif shape.wrist is not None:
         notes.append(
             (
                 f"The axes of joints {_rows(shape.wrist)} meet in one point, the centre of the "
@@ -30,10 +34,7 @@ def structure_notes(shape: Structure) -> list[Text]:
         )
     for run in shape.parallel:
         notes.append(
-            (
-                f"The axes of joints {_rows(run)} are parallel: their angles occur as sums, and "
-                "these are unknowns of their own.",
-            )
+            (f"The axes of joints {_rows(run)} are parallel: their angles occur as sums.",)
         )
     return notes
 

@@ -14,8 +14,10 @@ from symdh.kinematics.inverse.solution import Step
 from symdh.notation.nodes import Call, Negative, Node, Product
 from symdh.notation.writing import weight
 
-#: A side of an equation that has more to read than this does not stand in front.
+#: A determinant that has more to read than this is not written out in a sentence.
 LONG = 7
+#: A side of an equation that has more to read than this does not stand in front.
+_LONG_ALONE = 16
 #: The sine and the cosine of an angle that have no more to read than this are put in.
 SHORT = 2
 #: Nor one of several, which would push the others to the right.
@@ -56,7 +58,7 @@ class Telling:
         write = self.writer.element
         rows = []
         pairs = tuple(sides)
-        longest = LONG if len(pairs) == 1 else _LONG_AMONG_OTHERS
+        longest = _LONG_ALONE if len(pairs) == 1 else _LONG_AMONG_OTHERS
         for left, right in pairs:
             known, chain = write(left), write(right)
             front, behind = (known, chain) if weight(known) <= weight(chain) else (chain, known)
@@ -74,6 +76,10 @@ class Telling:
             {(row.name, row.forms[0]), (row.forms[0], row.name)} & self.written for row in rows
         )
 
+    def has_written(self, row: EntryStep) -> bool:
+        """Say whether an equation stands in this step, its sides in the same order."""
+        return (row.name, *row.forms) in self.written
+
     def as_equation(self, element: Element) -> EntrySteps:
         """Return ``element = 0`` with what the goal gives on one side."""
         ring = self.writer.form.ring
@@ -87,25 +93,27 @@ class Telling:
             left, right = -left, -right
         return self.shown([(left, right)])
 
-    def linear(self, coefficients: Sequence[Element]) -> tuple[Expr, Expr, Expr]:
+    def linear(
+        self, coefficients: Sequence[Element], longest: int = SHORT
+    ) -> tuple[Expr, Expr, Expr]:
         """Return A, B, C with letters for what is long: A s + B c = -C, so -C gets the letter."""
         a, b, c = coefficients
         short = self.writer.short
-        return short(a, self.new), short(b, self.new), -short(-c, self.new)
+        return short(a, self.new), short(b, self.new), -short(-c, self.new, longest)
 
     def introduced(self) -> list[Block]:
         """Give what the new names stand for, once."""
         if not self.new:
             return []
-        write = self.writer
-        rows = [EntryStep(write.expression(k), (write.nested(e),), None) for k, e in self.new]
+        rows = [self.writer.introduction(letter, element) for letter, element in self.new]
         self.new = []
-        return [Paragraph(("With letters for what is known,",)), EntrySteps(tuple(rows))]
+        letters = "a letter" if len(rows) == 1 else "letters"
+        return [Paragraph((f"With {letters} for what is known,",)), EntrySteps(tuple(rows))]
 
     def restated(self, equation: Node) -> list[Block]:
         """Give the new names, and the equation with them; nothing where it stands there."""
         told = self.introduced()
-        return [*told, Paragraph(("this is",)), Display(equation)] if told else []
+        return [*told, Paragraph(("this becomes",)), Display(equation)] if told else []
 
     def rows(
         self, equations: Sequence[tuple[Expr, Expr, Expr]], s: Expr, c: Expr
@@ -138,9 +146,14 @@ class Telling:
             EntryStep(angle, (write(atan2(y, x, evaluate=False)),), None),
         )
         return [
-            Paragraph(("With the known parts written as",)),
+            Paragraph(
+                (
+                    *("With a length ", write(rho), " and an angle ", angle),
+                    " the known parts are written as",
+                )
+            ),
             EntrySteps(rows),
-            Paragraph(("that is",)),
+            Paragraph(("so that",)),
             EntrySteps(values),
         ]
 

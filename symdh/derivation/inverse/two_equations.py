@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sympy import Expr, atan2, cos, sin
+from sympy import Expr, Mul, atan2, cos, sin
 
 from symdh.derivation.blocks import Block, EntryStep, EntrySteps, Inline, Paragraph
 from symdh.derivation.inverse.formulas import plus
-from symdh.derivation.inverse.remarks import meaning_of_free
+from symdh.derivation.inverse.remarks import nothing_said
 from symdh.derivation.inverse.telling import LONG, SHORT, Telling, solution
 from symdh.kinematics.inverse.ring import Element
 from symdh.notation.nodes import Call, Negative, Product, Sum
 from symdh.notation.writing import weight
+
+#: A known part that has no more to read than this needs no letter before rho and psi name it.
+_PLAIN = 3
+#: Nor one that stands over a single sine or cosine.
+_PLAIN_ALONE = 5
 
 
 def pair(telling: Telling) -> list[Block]:
@@ -23,8 +28,9 @@ def pair(telling: Telling) -> list[Block]:
     first, second = telling.step.coefficients[:3], telling.step.coefficients[3:]
     rotated = _as_rotation(first, second)
     if rotated is not None:
-        return _rotation(telling, *(telling.writer.short(part, telling.new) for part in rotated))
-    return _cramer(telling, telling.linear(first), telling.linear(second))
+        return _rotation(telling, rotated)
+    longest = SHORT if (first[0] and first[1]) or (second[0] and second[1]) else _PLAIN_ALONE
+    return _cramer(telling, telling.linear(first, longest), telling.linear(second, longest))
 
 
 def _apart(telling: Telling) -> tuple[Element, Element] | None:
@@ -57,9 +63,11 @@ def _both_known(telling: Telling, sine: Element, cosine: Element) -> list[Block]
     return [*blocks, *solution(EntryStep(unknown, tuple(angle), None))]
 
 
-def _rotation(telling: Telling, k_1: Expr, k_2: Expr, x: Expr, y: Expr) -> list[Block]:
+def _rotation(telling: Telling, rotated: Sequence[Element]) -> list[Block]:
     """Solve ``x = k_1 c - k_2 s`` and ``y = k_1 s + k_2 c`` by one angle psi."""
     writer = telling.writer
+    k_1, k_2 = (writer.short(part, telling.new, _PLAIN) for part in rotated[:2])
+    x, y = (writer.short(part, telling.new) for part in rotated[2:])
     s, c = telling.trigonometric()
     write = writer.expression
     rho, psi = writer.letter("rho"), writer.letter("psi")
@@ -76,19 +84,22 @@ def _rotation(telling: Telling, k_1: Expr, k_2: Expr, x: Expr, y: Expr) -> list[
     difference = plus(write(psi), write(atan2(x, y, evaluate=False)), -1)
     blocks = telling.introduced()
     if not telling.stand_there(rows):
-        blocks += [Paragraph(("these are" if blocks else "So",)), EntrySteps(rows)]
+        lead = "the two equations become" if blocks else "Collected, they are"
+        blocks += [Paragraph((lead,)), EntrySteps(rows)]
     return [
         *blocks,
         *telling.polar(rho, psi, k_1, k_2),
-        Paragraph(("these are",)),
+        Paragraph(("and the two equations become",)),
         EntrySteps(turned),
-        *solution(EntryStep(unknown, (difference,), None)),
         Paragraph(
             (
-                *("If ", write(rho), " is zero, both equations are empty and ", unknown),
-                *(" is free; ", meaning_of_free(telling)),
+                "Divided by each other, they give the tangent of ",
+                inner,
+                ". Hence",
             )
         ),
+        EntrySteps((EntryStep(unknown, (difference,), None),)),
+        *nothing_said(telling, ("Where ", write(rho), " is zero, both equations are empty")),
     ]
 
 
@@ -112,26 +123,51 @@ def _cramer(
     apart = any((b.is_zero and p.is_zero) for b, p in ((b_1, a_2), (b_2, a_1)))
     if not apart:
         again = "Of the same two equations all else is known now:"
-        lead = again if telling.is_told else "these are" if told else "So"
+        lead = again if telling.is_told else "the two equations become" if told else "Collected,"
         blocks += [Paragraph((lead,)), EntrySteps(rows)]
     blocks += [
-        Paragraph(("So" if apart else "two linear equations, with the solution",)),
+        Paragraph(("So" if apart else "Two linear equations have the solution",)),
         EntrySteps(solved),
         *solution(EntryStep(unknown, (write(atan2(s, c, evaluate=False)),), None)),
     ]
+    if determinant.atoms(cos, sin) or not _never_vanishes(telling):
+        shown = _without_sign(determinant)
+        text = write(shown)
+        what: Inline = text if weight(text) <= LONG else "the determinant of the two"
+        if _vanish_together(telling):
+            blocks += nothing_said(telling, ("Where ", what, " is zero, this pair says nothing"))
+        else:
+            tail = "; there another pair may." if telling.step.alternatives else "."
+            where = ("Where ", what, " is zero, this pair does not settle ", unknown, tail)
+            blocks.append(Paragraph(where))
+    return blocks
+
+
+def _vanish_together(telling: Telling) -> bool:
+    """Say whether all coefficients of sine and cosine are zero where the determinant is."""
+    ring = telling.writer.form.ring
+    lengths = ring.first_lengths
+    factors = [
+        {k for powers in part for k, power in enumerate(powers) if power and k not in lengths}
+        for place, part in enumerate(telling.step.coefficients)
+        if part and place % 3 < 2
+    ]
+    single = all(len(part) == 1 for part in telling.step.coefficients[:2] if part)
+    return single and all(each == factors[0] for each in factors)
+
+
+def _never_vanishes(telling: Telling) -> bool:
+    a_1, b_1, _, a_2, b_2, _ = telling.step.coefficients
+    return telling.writer.form.ring.is_constant(a_1 * b_2 - a_2 * b_1)
+
+
+def _without_sign(determinant: Expr) -> Expr:
+    """Return what is zero where a determinant is, without sign, lengths and powers."""
     if determinant.could_extract_minus_sign():
         determinant = -determinant
-    if determinant.is_Pow:
-        determinant = determinant.base
-    if determinant.atoms(cos, sin):
-        shown = write(determinant)
-        what: Inline = shown if weight(shown) <= LONG else "the determinant of the two"
-        where: tuple[Inline, ...] = ("Where ", what, " is zero, this pair says nothing about ")
-        rest: tuple[Inline, ...] = (unknown, " and it is free; ", meaning_of_free(telling))
-        if telling.step.alternatives:
-            rest = (unknown, "; there another pair of entries serves.")
-        blocks.append(Paragraph((*where, *rest)))
-    return blocks
+    factors = [f.base if f.is_Pow else f for f in Mul.make_args(determinant)]
+    turning = [f for f in factors if f.has(cos, sin) or f.is_Add]
+    return Mul(*turning) if turning and len(factors) > 1 else Mul(*factors)
 
 
 def _as_rotation(
