@@ -30,11 +30,21 @@ class Naming(Enum):
 
 @dataclass(frozen=True)
 class Style:
-    """The robot of a document with the choices that its author made."""
+    """The robot of a document with the choices that its author made.
+
+    Attributes
+    ----------
+    robot : Robot
+    order : Order
+    naming : Naming
+    leading : tuple of str
+        Symbols whose terms come first in a sum.
+    """
 
     robot: Robot
     order: Order = Order.RIGHT
     naming: Naming = Naming.AUTO
+    leading: tuple[str, ...] = ()
 
     @property
     def craig(self) -> bool:
@@ -46,7 +56,7 @@ class Style:
     @cached_property
     def notation(self) -> Notation:
         """How the robot's expressions are written."""
-        return Notation(self.robot)
+        return Notation(self.robot, leading=self.leading)
 
     @cached_property
     def figures(self) -> Notation:

@@ -42,6 +42,13 @@ class Unit:
 
 
 @dataclass(frozen=True, slots=True)
+class Words:
+    """Running text where a formula is expected, as in a cell of a table."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class Pi:
     """The number pi."""
 
@@ -225,6 +232,7 @@ Node = (
     | Rounded
     | Degrees
     | Unit
+    | Words
     | Pi
     | Name
     | Generic

@@ -38,6 +38,7 @@ from symdh.notation.nodes import (
     Transposed,
     Tuple,
     Unit,
+    Words,
 )
 
 
@@ -114,6 +115,8 @@ class MathWriter(ABC):
         match node:
             case Number() | Rounded() | Degrees() | Unit() | Pi():
                 return [self.quantity(node)]
+            case Words(text=text):
+                return [self.words(text)]
             case Name() | Generic() | Short():
                 return [self.symbol(node)]
             case PoseName() | Screw():
@@ -162,6 +165,10 @@ class MathWriter(ABC):
 
     def _guarded(self, node: Node, *kinds: type) -> Pieces:
         return self.bracketed(node) if isinstance(node, kinds) else self.pieces(node)
+
+    @abstractmethod
+    def words(self, text: str) -> Piece:
+        """Return running text in a formula."""
 
     @abstractmethod
     def quantity(self, node: Number | Rounded | Degrees | Unit | Pi) -> Piece:

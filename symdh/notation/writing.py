@@ -8,6 +8,7 @@ A minus is pulled out of a bracket whose terms are all negative.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos, pi, sin
@@ -53,6 +54,8 @@ class Notation:
     decimals : bool, optional
         Write 1/2 as 0.5; by default where the table itself holds decimal numbers, so that exact
         cosines such as 1/2 stay fractions in a table of symbols.
+    leading : sequence of str, optional
+        Symbols whose terms come first, in this order, as what is known of a goal does.
     """
 
     def __init__(
@@ -62,12 +65,14 @@ class Notation:
         *,
         degrees: bool | None = None,
         decimals: bool | None = None,
+        leading: Sequence[str] = (),
     ) -> None:
         self.shorthand = shorthand or Shorthand(robot)
         self._place = _chain_places(robot)
         counts_degrees = robot.units.angle is not AngleUnit.RADIAN
         self._degrees = counts_degrees if degrees is None else degrees
         self._decimals = _holds_decimals(robot) if decimals is None else decimals
+        self._leading = {name: place for place, name in enumerate(leading)}
 
     def write(self, expression: Expr) -> Node:
         """Return the node that an exact expression reads as.
@@ -238,7 +243,13 @@ class Notation:
         # Sums that an angle-sum identity comes from: c1 c2 - s1 s2, but s1 c2 + c1 s2.
         any_sine = any(f.function == "s" for f in shorts)
         trig = tuple((f.label, f.function == "c") for f in shorts)
-        return (bool(names), min(names, default=0), -weight(node), any_sine, trig, str(node))
+        lead = self._lead(term, any(place < _LAST for place in names))
+        return (lead, bool(names), min(names, default=0), -weight(node), any_sine, trig, str(node))
+
+    def _lead(self, term: Expr, with_length: bool) -> Key:
+        """Return where a term stands by its leading symbols, behind those without a length."""
+        places = [self._leading[s.name] for s in term.free_symbols if s.name in self._leading]
+        return (0, with_length, min(places)) if places else (1,)
 
 
 def weight(node: Node) -> int:

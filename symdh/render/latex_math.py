@@ -78,6 +78,10 @@ class LatexWriter(MathWriter):
         """Return a short text beside a formula, in small print."""
         return rf"\text{{\footnotesize {latex_text(text)}}}"
 
+    def words(self, text: str) -> Piece:
+        """Return running text in a formula."""
+        return Piece(rf"\text{{{latex_text(text)}}}", 5.0 * len(text))
+
     def quantity(self, node: Number | Rounded | Degrees | Unit | Pi) -> Piece:
         """Return a number, an angle in degrees, a unit or pi."""
         match node:

@@ -30,7 +30,7 @@ from symdh.derivation.blocks import (
 )
 from symdh.derivation.drawing.shapes import Drawing
 from symdh.notation import break_lines, joined
-from symdh.notation.nodes import Equation, Node
+from symdh.notation.nodes import Equation, Generic, Node
 from symdh.notation.pieces import Pieces, total_width
 from symdh.render.drawing.tikz import render_tikz
 from symdh.render.entries import named_entries
@@ -165,6 +165,7 @@ class Layout:
                 "header": self._cells(block.header),
                 "rows": [self._cells(row) for row in rows],
                 "notes": [self.inline(note) for note in block.notes] if last else [],
+                "tall": any(isinstance(n, Generic) and n.stage for row in rows for n in row),
             }
             yield Item("table", data)
 

@@ -20,6 +20,10 @@ class TextWriter(MathWriter):
         under = self._guarded(bottom, Sum, Negative, Product, Fraction)
         return [*over, text_piece("/"), *under]
 
+    def words(self, text: str) -> Piece:
+        """Return running text in a formula."""
+        return text_piece(text)
+
     def plus_minus(self, negative: bool) -> Piece:
         """Return a binary sign."""
         return text_piece(" - " if negative else " + ")

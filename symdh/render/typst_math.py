@@ -48,6 +48,10 @@ class TypstWriter(LatexWriter):
         """Return a short text beside a formula, in small print."""
         return f"#box(text(size: 9pt)[{typst_text(text)}])"
 
+    def words(self, text: str) -> Piece:
+        """Return running text in a formula."""
+        return Piece(f"#box[{typst_text(text)}]", super().words(text).width)
+
     def quantity(self, node: Number | Rounded | Degrees | Unit | Pi) -> Piece:
         """Return a number, an angle in degrees, a unit or pi."""
         match node:

@@ -59,9 +59,14 @@ def single_candidates(state: State) -> Iterator[Candidate]:
             a, b = _with_few_signs(a, b)
         others = tuple(linear for _, linear, other in equations if other is not view)
         yield Candidate(
-            _cost(best) + EARLIER * x,
+            _cost(best) + earliest(state, x),
             Step(x, rule, (view.used,), (a, b, c), others[:_ALTERNATIVES], branches=2),
         )
+
+
+def earliest(state: State, angle: int) -> float:
+    """Return what an angle costs for its place; a sum stands where its last joint does."""
+    return EARLIER * state.ring.unknown_of(state.ring.forms[angle][-1][0])
 
 
 def _cost(entry: tuple[int, Linear, View]) -> float:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
 
 from sympy import Add, Expr, Integer, Mul, Symbol
 
-from symdh.derivation.blocks import Inline
+from symdh.derivation.blocks import EntryStep
+from symdh.derivation.inverse.formulas import beside, inverses
 from symdh.derivation.style import Style
 from symdh.kinematics.inverse.branches import Branches
 from symdh.kinematics.inverse.pool import Source
@@ -18,20 +18,25 @@ from symdh.notation.nodes import (
     Equation,
     Fraction,
     Generic,
-    Juxtaposed,
     Name,
     Negative,
     Node,
     Number,
-    Power,
-    Rounded,
-    Sum,
-    Tuple,
 )
 from symdh.notation.writing import weight
 
+_ONE = Integer(1)
 #: A coefficient that has more to read than this gets a name.
 _SHORT = 2
+
+
+def goal_letters(form: ClosedForm) -> tuple[str, ...]:
+    """Return the letters for known parts and what the goal gives, in the order of reading."""
+    ring = form.ring
+    names = [str(letter) for k, letter in enumerate(ring.letters) if ring.is_given(k)]
+    order = {f"{stem}_{axis}": k for stem in "pwu" for k, axis in enumerate("xyz")}
+    names.sort(key=lambda name: (name[-2] != "_", order.get(name, 9), name))
+    return (*(f"k_{count}" for count in range(1, 100)), *names)
 
 
 class Writer:
@@ -57,7 +62,9 @@ class Writer:
         robot = form.arm.robot
         self._used = {s.name for s in (*robot.parameters, *robot.variables)}
         self._named: dict[Element, Symbol] = {}
+        self._divisors: dict[Symbol, Element] = {}
         self._counts: dict[str, int] = {}
+        self._introduced: dict[Element, Symbol] = {}
 
     def expression(self, expression: Expr) -> Node:
         """Write an expression."""
@@ -67,28 +74,22 @@ class Writer:
         """Write an element."""
         return self.expression(self._ring.expression(element))
 
-    def given_first(self, element: Element) -> Node:
-        """Write an element with what the goal gives in front: ``p_x^2 + p_y^2 - a_1^2``."""
-        make = self._ring.ring.from_dict
-        given: dict[tuple[int, ...], object] = {}
-        rest: dict[tuple[int, ...], object] = {}
-        for powers, coefficient in element.terms():
-            goal = any(power and self._ring.is_given(k) for k, power in enumerate(powers))
-            (given if goal else rest)[powers] = coefficient
-        parts = [part for part in (make(given), make(rest)) if part]
-        parts.sort(key=lambda part: all(coefficient < 0 for coefficient in part.values()))
-        terms = [term for part in parts for term in _terms(self.element(part))]
-        return self.element(element) if len(parts) < 2 else Sum(tuple(terms))
+    def introduction(self, letter: Symbol, element: Element) -> EntryStep:
+        """Return what a letter stands for; from now on it may be used."""
+        by = self._divisors.get(letter)
+        node = self.nested(element) if by is None else self.quotient_of(element, by)
+        self._introduced[element] = letter
+        return EntryStep(self.expression(letter), (node,), None)
 
     def nested(self, element: Element) -> Node:
         """Write an element with common factors taken out: ``(r_13 c_1 + r_23 s_1) c_23 + ..``."""
-        expression = self._nested(element)
-        if expression == self._ring.expression(element):
-            return self.given_first(element)
-        return self.expression(expression)
+        return self.expression(self._nested(element))
 
     def _nested(self, element: Element) -> Expr:
         """Take out the letter that most terms share, and go on with both parts."""
+        for known, sign in ((element, 1), (-element, -1)):
+            if known in self._introduced:
+                return sign * self._introduced[known]
         counts = Counter(k for powers in element for k, power in enumerate(powers) if power)
         goal = [k for k in counts if self._ring.is_given(k)]
         for k in goal:
@@ -131,14 +132,16 @@ class Writer:
         """Say whether an unknown is a sum of joint angles."""
         return not self._ring.unknown_expression(unknown).is_Symbol
 
-    def short(self, element: Element, new: list[tuple[Symbol, Element]]) -> Expr:
+    def short(
+        self, element: Element, new: list[tuple[Symbol, Element]], longest: int = _SHORT
+    ) -> Expr:
         """Return an element as it is where it is short, else a name for it.
 
         A new name is appended to `new` with what it stands for.
         """
         expression = self._ring.expression(element)
         node = self.expression(expression)
-        if weight(node) <= _SHORT:
+        if weight(node) <= longest:
             return expression
         for known, sign in ((element, 1), (-element, -1)):
             if known in self._named:
@@ -148,6 +151,15 @@ class Writer:
         self._named[sign * element] = letter
         new.append((letter, sign * element))
         return sign * letter
+
+    def quotient_letter(
+        self, top: Element, bottom: Element, new: list[tuple[Symbol, Element]]
+    ) -> Symbol:
+        """Return a name for a quotient of two elements."""
+        letter = self.letter("k")
+        self._divisors[letter] = bottom
+        new.append((letter, top))
+        return letter
 
     def letter(self, stem: str) -> Symbol:
         """Return a letter with a number, such as k_3, that nothing else has."""
@@ -175,12 +187,35 @@ class Writer:
         under = self.expression(self._ring.expression(bottom))
         if isinstance(under, Negative):
             top, under = -top, under.node
-        over = self.given_first(top)
-        if isinstance(under, Number) and under.value == 1:
-            return over
+        negative = self.is_negative(top)
+        over = self.nested(-top if negative else top)
         if isinstance(over, Negative):
-            return Negative(Fraction(over.node, under))
-        return Fraction(over, under)
+            negative, over = not negative, over.node
+        if not (isinstance(under, Number) and under.value == 1):
+            over = Fraction(over, under)
+        elif negative:
+            return self.nested(top)
+        return Negative(over) if negative else over
+
+    def is_negative(self, element: Element) -> bool:
+        """Say whether more is taken away than added of what the goal gives, or else of all."""
+        given = [c for powers, c in element.terms() if self._holds_given(powers)]
+        signs = given or [c for _, c in element.terms()]
+        return 2 * sum(1 for c in signs if c < 0) > len(signs)
+
+    def sign_of(self, element: Element) -> int:
+        """Return the sign of a product of lengths; those without a value are positive."""
+        values = self.form.arm.robot.values
+        powers = element.LM
+        negative = [
+            k
+            for k, power in enumerate(powers)
+            if power % 2 and values.get(self._ring.letters[k], _ONE).is_negative
+        ]
+        return -1 if (element.LC < 0) != (len(negative) % 2 == 1) else 1
+
+    def _holds_given(self, powers: tuple[int, ...]) -> bool:
+        return any(power and self._ring.is_given(k) for k, power in enumerate(powers))
 
     def goal_matrix(self, source: Source) -> Node:
         """Return the name of the matrix that an equation starts from: G, or that of a part."""
@@ -204,51 +239,10 @@ class Writer:
         i_0, j_0 = source.base
         if source.inverted:
             before, after = self.links(source.j, j_0), self.links(i_0, source.i)
-            left = (*before, Power(self.goal_matrix(source), _MINUS), *after)
-            right = _inverses(self.links(source.i, source.j))
+            left = (*before, *inverses((self.goal_matrix(source),)), *after)
+            right = inverses(self.links(source.i, source.j))
         else:
             before, after = self.links(i_0, source.i), self.links(source.j, j_0)
-            left = (*_inverses(before), self.goal_matrix(source), *_inverses(after))
+            left = (*inverses(before), self.goal_matrix(source), *inverses(after))
             right = self.links(source.i, source.j)
-        return Equation((_beside(left), _beside(right)))
-
-
-_MINUS = Integer(-1)
-
-
-def _inverses(names: Sequence[Node]) -> tuple[Node, ...]:
-    return tuple(Power(name, _MINUS) for name in reversed(names))
-
-
-def _beside(names: Sequence[Node]) -> Node:
-    return names[0] if len(names) == 1 else Juxtaposed(tuple(names))
-
-
-def _terms(node: Node) -> tuple[Node, ...]:
-    """Return the terms of a sum, its sign taken into the brackets."""
-    if isinstance(node, Negative):
-        return tuple(
-            term.node if isinstance(term, Negative) else Negative(term)
-            for term in _terms(node.node)
-        )
-    return node.terms if isinstance(node, Sum) else (node,)
-
-
-def place(entry: tuple[int, int]) -> Node:
-    """Return the place of an entry, counted from 1."""
-    return Tuple(tuple(Rounded(str(k + 1)) for k in entry))
-
-
-def is_zero(node: Node) -> bool:
-    """Say whether a node is the number zero."""
-    return isinstance(node, Number) and node.value == 0
-
-
-def listed(items: Sequence[Node]) -> tuple[Inline, ...]:
-    """Return formulas as running text: a, b and c."""
-    told: list[Inline] = []
-    for position, item in enumerate(items):
-        if position:
-            told.append(" and " if position == len(items) - 1 else ", ")
-        told.append(item)
-    return tuple(told)
+        return Equation((beside(left), beside(right)))

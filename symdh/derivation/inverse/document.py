@@ -1,0 +1,87 @@
+"""Inverse kinematics as a document: what is given, each step, the solutions and their numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from symdh.derivation.blocks import (
+    Block,
+    Chapter,
+    Document,
+    EntrySteps,
+    Paragraph,
+    Text,
+)
+from symdh.derivation.inverse.arm import link_matrices, the_arm
+from symdh.derivation.inverse.given import given as what_is_given
+from symdh.derivation.inverse.known_parts import is_told
+from symdh.derivation.inverse.names import Writer, goal_letters
+from symdh.derivation.inverse.no_closed_form import without_closed_form
+from symdh.derivation.inverse.numbers import Solved, numbers_chapter
+from symdh.derivation.inverse.solutions import solutions
+from symdh.derivation.inverse.steps import step_chapter
+from symdh.derivation.legend import legend
+from symdh.derivation.style import Naming, Style
+from symdh.kinematics.inverse.branches import branches_of
+from symdh.kinematics.inverse.inverse import InverseKinematics, Method
+from symdh.kinematics.inverse.solution import ClosedForm
+from symdh.notation.nodes import (
+    Node,
+)
+
+
+def inverse_document(
+    found: InverseKinematics, solved: Solved | None = None, naming: Naming | str = Naming.AUTO
+) -> Document:
+    """Return the document on the inverse kinematics of an arm.
+
+    Parameters
+    ----------
+    found : InverseKinematics
+    solved : Solved, optional
+        Solutions to print for one goal.
+    naming : Naming or str
+        How poses are written.
+    """
+    robot = found.robot
+    chapters: list[Chapter] = []
+    if found.method is not Method.CLOSED_FORM:
+        chapters.append(without_closed_form(found))
+    if found.form is not None and found.method is not Method.LEAST_SQUARES:
+        chapters += _derivation(found, found.form, Naming(naming))
+    if solved is not None:
+        chapters.append(numbers_chapter(found, solved))
+    subtitle: Text = ("Inverse kinematics",)
+    return Document(robot.title or robot.name, subtitle, tuple(chapters))
+
+
+def _derivation(found: InverseKinematics, form: ClosedForm, naming: Naming) -> list[Chapter]:
+    style = Style(form.arm.robot, naming=naming, leading=goal_letters(form))
+    writer = Writer(style, form, branches_of(form))
+    steps = [step_chapter(writer, step) for step in form.steps if is_told(form, step)]
+    links = link_matrices(form, writer)
+    formulas = [node for chapter in steps for node in _formulas(chapter.blocks)]
+    meanings = legend(style, [*formulas, *(each.matrix for each in links.matrices)])
+    return [
+        the_arm(form, writer),
+        what_is_given(found, form, writer),
+        Chapter("The links", (*([] if meanings is None else [meanings]), links)),
+        *steps,
+        solutions(form, writer),
+    ]
+
+
+def _formulas(blocks: Sequence[Block]) -> list[Node]:
+    """Return the formulas in blocks."""
+    found: list[Node] = []
+    for block in blocks:
+        match block:
+            case EntrySteps(entries=entries):
+                found += [node for step in entries for node in (step.name, *step.forms)]
+            case Paragraph(content=content):
+                found += [part for part in content if not isinstance(part, str)]
+            case _:
+                formula = getattr(block, "formula", None)
+                if formula is not None:
+                    found.append(formula)
+    return found

@@ -1,0 +1,49 @@
+"""The equations of a slide."""
+
+from __future__ import annotations
+
+from sympy import Integer, sqrt
+
+from symdh.derivation.blocks import Block, Display, EntryStep, Paragraph
+from symdh.derivation.inverse.formulas import equation
+from symdh.derivation.inverse.telling import Telling, solution
+from symdh.notation.nodes import Fraction, Negative, Sum
+
+
+def slide(telling: Telling) -> list[Block]:
+    """Solve ``A q + C = 0``."""
+    writer, ring = telling.writer, telling.writer.form.ring
+    a, c = telling.step.coefficients
+    row = EntryStep(writer.unknown(telling.step.unknown), (writer.quotient_of(-c, a),), None)
+    blocks = [] if telling.has_written(row) else solution(row)
+    if not ring.is_constant(a):
+        zero = ("Where ", writer.element(a), " is zero, this says nothing of ", row.name)
+        other = "; there another entry may." if telling.step.alternatives else "."
+        blocks.append(Paragraph((*zero, other)))
+    return blocks
+
+
+def slide_square(telling: Telling) -> list[Block]:
+    """Solve ``A q^2 + B q + C = 0``."""
+    writer = telling.writer
+    a, b, c = telling.linear(telling.step.coefficients)
+    q = writer.form.ring.unknown_expression(telling.step.unknown)
+    write = writer.expression
+    root = write(sqrt(b**2 - 4 * a * c))
+    before = () if b.is_zero else (write(-b),)
+    tops = [(*before, root), (*before, Negative(root))]
+    rows = [
+        EntryStep(
+            writer.unknown(telling.step.unknown, str(k)),
+            (Fraction(Sum(top) if before else top[0], write(2 * a)),),
+            None,
+        )
+        for k, top in enumerate(tops, start=1)
+    ]
+    return [
+        *telling.introduced(),
+        Paragraph(("So",)),
+        Display(equation(write(a * q**2 + b * q + c), write(Integer(0)))),
+        *solution(*rows),
+        Paragraph(("Where the radicand is negative, the goal is out of reach.",)),
+    ]
