@@ -20,6 +20,7 @@ from symdh.codegen.facts import Facts, facts_of
 from symdh.codegen.forward import forward_routine
 from symdh.codegen.graph import Node, Op
 from symdh.codegen.inverse.c import CSection, c_context, c_section
+from symdh.codegen.inverse.found import LEFT_OUT
 from symdh.codegen.jacobian import forward_jacobian_routine, jacobian_routine
 from symdh.codegen.listing import Local
 from symdh.codegen.names import Scope, comment_text, file_stem
@@ -67,6 +68,7 @@ def generate(
     precision: str = "double",
     batch: bool = False,
     lock: tuple[Symbol, ...] = (),
+    ik: bool = True,
 ) -> tuple[GeneratedFile, ...]:
     """Generate ``NAME.h`` and ``NAME.c`` (see `symdh.codegen.generate`).
 
@@ -85,6 +87,8 @@ def generate(
         robot without joint variables there are none.
     lock : tuple of Symbol
         Joint variables that the inverse kinematics holds at what the seed says.
+    ik : bool
+        Whether to write the inverse kinematics where there is a closed form.
     """
     known = {s: robot.values[s] for s in robot.parameters if s in robot.values}
     writer = _Writer(robot, known, PRECISIONS[precision], is_inline=trig == "inline")
@@ -113,7 +117,7 @@ def generate(
         "digits": writer.precision.bits,
         "kernel": writer.kernel(functions.values()),
         "batch": many,
-        "ik": writer.inverse(facts, known, lock),
+        "ik": writer.inverse(facts, known, lock) if ik else CSection(LEFT_OUT.reason),
         **c_context(),
     }
     return (
