@@ -78,7 +78,12 @@ TARGETS: tuple[Target, ...] = (
         options=("trig", "precision", "batch", "lock", "ik"),
         in_derive=True,
     ),
-    Target("cpp", "a C++17 header on Eigen, templated on the scalar", (".hpp",)),
+    Target(
+        "cpp",
+        "a C++17 header on Eigen, templated on the scalar",
+        (".hpp",),
+        options=("lock", "ik"),
+    ),
     Target(
         "matlab",
         "function files for MATLAB and Octave",
