@@ -227,8 +227,8 @@ class _Writing:
         return self._printing(self._functions, names)
 
 
-def _leaves(program: Program) -> set[Node]:
-    """Return the symbols that the statements of a program read."""
+def roots_of(program: Program) -> list[Node]:
+    """Return what the statements of a program compute."""
     roots: list[Node] = []
     for statement in program.statements:
         match statement:
@@ -239,4 +239,9 @@ def _leaves(program: Program) -> set[Node]:
                     roots += [*option.coefficients, *option.scales]
             case Propose():
                 roots += statement.values
-    return {node for node in reachable(roots) if node.op is Op.SYMBOL}
+    return roots
+
+
+def _leaves(program: Program) -> set[Node]:
+    """Return the symbols that the statements of a program read."""
+    return {node for node in reachable(roots_of(program)) if node.op is Op.SYMBOL}

@@ -90,7 +90,12 @@ TARGETS: tuple[Target, ...] = (
         ("_fk.m", "_jacobian.m", "_fk_jacobian.m"),
     ),
     Target("julia", "a Julia module without dependencies", (".jl",)),
-    Target("rust", "a Rust module that is no_std and needs no crate", (".rs",)),
+    Target(
+        "rust",
+        "a Rust module that is no_std and needs no crate",
+        (".rs",),
+        options=("lock", "ik"),
+    ),
     Target("javascript", "an ES module with its TypeScript types", (".mjs", ".d.mts")),
     Target(
         "python-ext",
