@@ -101,6 +101,7 @@ TARGETS: tuple[Target, ...] = (
         "python-ext",
         "a Python extension around the C, which pip installs",
         (".h", ".c", "_ext.c", "setup.py", "pyproject.toml"),
+        options=("lock", "ik"),
         folder="{}_ext",
     ),
 )
