@@ -21,7 +21,6 @@ from symdh.codegen import GeneratedFile, generate
 from tools import require_tool
 
 FLOATS = Arithmetic(float, lambda x: np.asarray(x, dtype=float), np.pi, np.cos, np.sin, float)
-_DOUBLES = ctypes.POINTER(ctypes.c_double)
 
 
 @dataclass(frozen=True)
@@ -32,19 +31,22 @@ class CInverse:
     most: int
     n: int
     parameters: tuple[float, ...]
+    is_single: bool = False
 
     def __call__(self, goal: Any, seed: Any = None) -> tuple[np.ndarray, list[int]]:
         """Answers (count, n), and their masks of free joints."""
-        answers, masks = np.empty((self.most, self.n)), (ctypes.c_uint * self.most)()
-        pose = np.ascontiguousarray(goal, dtype=float)
-        arguments: list[Any] = [pose.ctypes.data_as(_DOUBLES)]
+        real = ctypes.c_float if self.is_single else ctypes.c_double
+        kind, numbers = np.dtype(real), ctypes.POINTER(real)
+        answers, masks = np.empty((self.most, self.n), kind), (ctypes.c_uint * self.most)()
+        pose = np.ascontiguousarray(goal, dtype=kind)
+        arguments: list[Any] = [pose.ctypes.data_as(numbers)]
         if self.parameters:
-            arguments.append((ctypes.c_double * len(self.parameters))(*self.parameters))
-        start = None if seed is None else np.ascontiguousarray(seed, dtype=float)
-        arguments.append(None if start is None else start.ctypes.data_as(_DOUBLES))
-        count = self.function(*arguments, answers.ctypes.data_as(_DOUBLES), masks)
+            arguments.append((real * len(self.parameters))(*self.parameters))
+        start = None if seed is None else np.ascontiguousarray(seed, dtype=kind)
+        arguments.append(None if start is None else start.ctypes.data_as(numbers))
+        count = self.function(*arguments, answers.ctypes.data_as(numbers), masks)
         assert 0 <= count <= self.most
-        return answers[:count], list(masks)[:count]
+        return answers[:count].astype(float), list(masks)[:count]
 
 
 @dataclass(frozen=True)
@@ -151,4 +153,4 @@ def compile_inverse(
     most = re.search(rf"#define {stem}_IK_MAX (\d+)", header.text)
     assert most is not None
     function = getattr(ctypes.CDLL(str(library)), f"{stem}_ik")
-    return CInverse(function, int(most[1]), n, tuple(parameters))
+    return CInverse(function, int(most[1]), n, tuple(parameters), stem.endswith("_float"))

@@ -40,10 +40,10 @@ from tools import require_tool
 ROBOTS = [PUMA, SCARA, STILL, STILL_NUMBERS, replace(HOSTILE_PARAMETERS, name="hostile names")]
 
 
-def build(robot: Robot, folder: Path) -> ModuleType:
+def build(robot: Robot, folder: Path, **options: object) -> ModuleType:
     """Compile the extension with all warnings, as setup.py does without them, and import it."""
     gcc = require_tool("gcc")
-    write_all(generate(robot, "python-ext"), folder)
+    write_all(generate(robot, "python-ext", **options), folder)
     (source,) = folder.glob("*_ext.c")
     built = folder / f"{source.stem}{sysconfig.get_config_var('EXT_SUFFIX')}"
     # What the headers of Python and NumPy warn of themselves is theirs.

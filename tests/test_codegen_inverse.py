@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import math
 import os
+import re
 import subprocess
 import tempfile
 import time
@@ -14,12 +15,13 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
+from conftest import Runner
 from generated import STRICT_C, import_generated
 from inverse_code import Loaded, compile_inverse, load
 from sympy import Float
 
 import symdh
-from symdh.codegen import GeneratedFile, generate
+from symdh.codegen import TARGETS, GeneratedFile, Target, generate
 from symdh.codegen.inverse import found as search
 from symdh.codegen.inverse.breaking import broken, broken_value
 from symdh.codegen.inverse.lowering import inverse_program
@@ -353,6 +355,49 @@ def test_a_search_that_takes_too_long_is_said(monkeypatch: pytest.MonkeyPatch) -
     assert (
         "No inverse kinematics: the search for a closed form was stopped after 0 s." in module.text
     )
+
+
+# ------------------------------------------------------------------------------- left out, as asked
+
+WITH_IK = [target for target in TARGETS if "ik" in target.options]
+
+
+@pytest.mark.parametrize("target", WITH_IK, ids=lambda target: target.name)
+def test_it_is_left_out_where_nobody_wants_it(
+    target: Target, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nothing but the search and its section go; the rest of the files is the same."""
+    robot = symdh.loads(PLANAR.replace("0.5", "0.52"))
+
+    def searched(*arguments: object) -> None:
+        raise AssertionError("the closed form was searched")
+
+    monkeypatch.setattr(search, "_searched", searched)
+    files = target.generate(robot, ik=False)
+    text = "".join(file.text for file in files)
+    assert re.search(r"\bik\b|_ik\(|IK", text) is None
+    assert "No inverse kinematics: it was left out, as asked." in text
+    assert "jacobian" in text
+
+
+def test_the_commands_leave_it_out(run_symdh: Runner, tmp_path: Path) -> None:
+    (tmp_path / "arm.yaml").write_text(PLANAR, encoding="utf-8")
+    for command in (["code", "--target", "c", "--target", "python"], ["derive"]):
+        ran = run_symdh(command[0], "arm.yaml", *command[1:], "-o", command[0], "--no-ik")
+        assert ran.returncode == 0, ran.stderr
+        for name in ("planar.h", "planar.c", "planar.py"):
+            text = (tmp_path / command[0] / name).read_text(encoding="utf-8")
+            assert "_ik(" not in text
+            assert "def ik" not in text
+        ran = run_symdh(command[0], "arm.yaml", *command[1:], "-o", command[0])
+        assert "int planar_ik(" in (tmp_path / command[0] / "planar.c").read_text(encoding="utf-8")
+
+
+def test_nothing_is_held_in_what_is_left_out(run_symdh: Runner, tmp_path: Path) -> None:
+    (tmp_path / "arm.yaml").write_text(PLANAR, encoding="utf-8")
+    ran = run_symdh("code", "arm.yaml", "--target", "c", "--no-ik", "--lock", "theta1")
+    assert ran.returncode == 2
+    assert "--lock is for the inverse kinematics, which --no-ik leaves out" in ran.stderr
 
 
 # -------------------------------------------------------------------------------- the program

@@ -189,6 +189,16 @@ def _use_templates(context: click.Context, option: click.Parameter, folder: str 
     console.show_diagnostics(context.with_resource(own_templates(folder)).warnings)
 
 
+def no_ik_option(function: F) -> F:
+    """Add --no-ik."""
+    return click.option(
+        "--no-ik",
+        is_flag=True,
+        help="Leave the inverse kinematics out of the code; without its search this takes less "
+        "time, and the files are smaller.",
+    )(function)
+
+
 def force_option(function: F) -> F:
     """Add --force."""
     return click.option(

@@ -71,6 +71,7 @@ def _listing() -> str:
     help="C, Python: a joint that the inverse kinematics holds at what the seed says, for arms "
     "with more joints than a pose needs. Repeatable.",
 )
+@options.no_ik_option
 @click.option(
     "--verify",
     is_flag=True,
@@ -87,6 +88,7 @@ def code(
     precision: str | None,
     batch: bool | None,
     locks: tuple[str, ...],
+    no_ik: bool,
     verify: bool,
     folder: str | None,
     force: bool,
@@ -95,7 +97,15 @@ def code(
 
     The functions are of the whole chain, base to tool, and drop into another project.
     """
-    wanted = {"trig": trig, "precision": precision, "batch": batch, "lock": locks or None}
+    if locks and no_ik:
+        raise click.UsageError("--lock is for the inverse kinematics, which --no-ik leaves out")
+    wanted = {
+        "trig": trig,
+        "precision": precision,
+        "batch": batch,
+        "lock": locks or None,
+        "ik": False if no_ik else None,
+    }
     chosen = {option: value for option, value in wanted.items() if value is not None}
     for option in chosen:
         _refuse_if_of_no_use(option, targets)
@@ -140,4 +150,5 @@ def _verify(
 def _refuse_if_of_no_use(option: str, targets: tuple[str, ...]) -> None:
     able = [target.name for target in TARGETS if option in target.options]
     if not set(able) & set(targets):
-        raise click.UsageError(f"--{option} is for --target {' or '.join(able)}")
+        spelt = "no-ik" if option == "ik" else option
+        raise click.UsageError(f"--{spelt} is for --target {' or '.join(able)}")

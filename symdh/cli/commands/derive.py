@@ -31,6 +31,7 @@ class Wishes:
     force: bool
     templates: str | None
     homework: table_files.Homework
+    ik: bool
 
 
 @click.command(
@@ -48,6 +49,7 @@ class Wishes:
 @options.jobs_option
 @options.document_options
 @options.sheet_options
+@options.no_ik_option
 @options.templates_option
 @options.force_option
 def derive(
@@ -60,6 +62,7 @@ def derive(
     sheet: str | None,
     points: bool,
     ask_table: bool,
+    no_ik: bool,
     force: bool,
 ) -> None:
     """Derive tables: result, handout and code.
@@ -78,7 +81,7 @@ def derive(
     from symdh.templating import folder_in_force
 
     homework = table_files.Homework(sheet, points, ask_table)
-    wishes = Wishes(order, notation, paper, force, folder_in_force(), homework)
+    wishes = Wishes(order, notation, paper, force, folder_in_force(), homework, not no_ik)
     if len(tables) == 1:
         _derive_one(tables[0], folder, wishes)
     elif folder == "-":
@@ -149,6 +152,7 @@ def _everything(robot: Robot, document: Document, wishes: Wishes) -> dict[str, b
     if wishes.homework.sheet is not None:
         return contents
     for target in (target for target in TARGETS if target.in_derive):
-        for file in generate(robot, target.name):
+        left_out = {} if wishes.ik or "ik" not in target.options else {"ik": False}
+        for file in generate(robot, target.name, **left_out):
             contents[file.name] = file.text.encode()
     return contents

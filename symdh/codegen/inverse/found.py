@@ -29,6 +29,10 @@ class Missing:
     reason: str
 
 
+#: Of a file that was asked for without it.
+LEFT_OUT = Missing("it was left out, as asked")
+
+
 @dataclass(frozen=True)
 class _Wanted:
     """What is searched; two tables with one fingerprint are one."""

@@ -11,7 +11,7 @@ from symdh.codegen.calls import PYTHON
 from symdh.codegen.facts import Facts
 from symdh.codegen.inverse.breaking import broken, broken_value
 from symdh.codegen.inverse.constants import NUMBERS, SENTENCES, SETTLE, held_joints
-from symdh.codegen.inverse.found import Missing
+from symdh.codegen.inverse.found import LEFT_OUT, Missing
 from symdh.codegen.inverse.lowering import inverse_program
 from symdh.codegen.inverse.program import Program
 from symdh.codegen.inverse.writing import WrittenProgram, WrittenSolve, write_program
@@ -62,6 +62,8 @@ def python_section(
     facts: Facts,
     is_reserved: Callable[[str], bool],
     locked: tuple[Symbol, ...] = (),
+    *,
+    wanted: bool = True,
 ) -> PythonSection:
     """Write the inverse kinematics of a robot in Python.
 
@@ -73,8 +75,10 @@ def python_section(
         Says whether the language or the module has a name already.
     locked : tuple of Symbol
         Joint variables that are held at what the seed says.
+    wanted : bool
+        Whether the file is to have it.
     """
-    program = inverse_program(robot, None, locked)
+    program = inverse_program(robot, None, locked) if wanted else LEFT_OUT
     if isinstance(program, Missing):
         return PythonSection(program.reason)
     scope = Scope(is_reserved)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from sympy import Symbol
@@ -13,6 +13,9 @@ from symdh.codegen.listing import Local
 from symdh.codegen.names import Scope
 from symdh.codegen.printer import Printer
 from symdh.codegen.routine import reachable
+
+#: Makes a printer of the names of functions and of nodes.
+MakePrinter = Callable[[Mapping[Op, str], Mapping[Node, str]], Printer]
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +116,7 @@ def write_program(
     symbols: Mapping[Symbol, str],
     scope: Scope,
     parameters: Mapping[Symbol, str] | None = None,
-    printer: type[Printer] = Printer,
+    printer: MakePrinter = Printer,
 ) -> WrittenProgram:
     """Write a program in one language.
 
@@ -128,8 +131,8 @@ def write_program(
         Where the locals live; it has given out those identifiers.
     parameters : mapping of Symbol to str, optional
         What parameters are called where the reach is computed, if not by their identifiers.
-    printer : type of Printer
-        How the language writes expressions.
+    printer : callable
+        Makes what writes the language's expressions of functions and names, as `Printer` does.
     """
     return _Writing(program, functions, symbols, scope, printer).written(parameters or symbols)
 
@@ -141,7 +144,7 @@ class _Writing:
         functions: Mapping[Op, str],
         symbols: Mapping[Symbol, str],
         scope: Scope,
-        printer: type[Printer],
+        printer: MakePrinter,
     ) -> None:
         self._program, self._functions, self._printing = program, functions, printer
         self._symbols, self._scope = symbols, scope
@@ -224,8 +227,8 @@ class _Writing:
         return self._printing(self._functions, names)
 
 
-def _leaves(program: Program) -> set[Node]:
-    """Return the symbols that the statements of a program read."""
+def roots_of(program: Program) -> list[Node]:
+    """Return what the statements of a program compute."""
     roots: list[Node] = []
     for statement in program.statements:
         match statement:
@@ -236,4 +239,9 @@ def _leaves(program: Program) -> set[Node]:
                     roots += [*option.coefficients, *option.scales]
             case Propose():
                 roots += statement.values
-    return {node for node in reachable(roots) if node.op is Op.SYMBOL}
+    return roots
+
+
+def _leaves(program: Program) -> set[Node]:
+    """Return the symbols that the statements of a program read."""
+    return {node for node in reachable(roots_of(program)) if node.op is Op.SYMBOL}

@@ -15,16 +15,17 @@ from symdh.codegen.c.batch import Batch, PackWriter
 from symdh.codegen.c.body import BodyWriter, Statement, takes_losses, widths
 from symdh.codegen.c.folding import WIDTH, fold
 from symdh.codegen.c.kernel import Kernel, kernel
+from symdh.codegen.c.printer import CPrinter
 from symdh.codegen.calls import CALLS
-from symdh.codegen.facts import Facts, facts_of
+from symdh.codegen.facts import facts_of
 from symdh.codegen.forward import forward_routine
 from symdh.codegen.graph import Node, Op
-from symdh.codegen.inverse.c import CSection, c_context, c_section
+from symdh.codegen.inverse.c import c_head, c_section
+from symdh.codegen.inverse.dialect import c_dialect
 from symdh.codegen.jacobian import forward_jacobian_routine, jacobian_routine
 from symdh.codegen.listing import Local
 from symdh.codegen.names import Scope, comment_text, file_stem
 from symdh.codegen.precision import DOUBLE, FLOAT, PRECISIONS, Precision
-from symdh.codegen.printer import Printer
 from symdh.codegen.reserved import is_reserved_in_c
 from symdh.codegen.routine import Routine
 from symdh.codegen.targets import GeneratedFile
@@ -67,6 +68,7 @@ def generate(
     precision: str = "double",
     batch: bool = False,
     lock: tuple[Symbol, ...] = (),
+    ik: bool = True,
 ) -> tuple[GeneratedFile, ...]:
     """Generate ``NAME.h`` and ``NAME.c`` (see `symdh.codegen.generate`).
 
@@ -85,6 +87,8 @@ def generate(
         robot without joint variables there are none.
     lock : tuple of Symbol
         Joint variables that the inverse kinematics holds at what the seed says.
+    ik : bool
+        Whether to write the inverse kinematics where there is a closed form.
     """
     known = {s: robot.values[s] for s in robot.parameters if s in robot.values}
     writer = _Writer(robot, known, PRECISIONS[precision], is_inline=trig == "inline")
@@ -98,7 +102,7 @@ def generate(
     many = writer.batch(forward) if batch and robot.variables else None
     facts = facts_of(robot)
     stem = writer.stem
-    number = writer.precision.literal
+    real, number = writer.precision.name, writer.precision.literal
     context = {
         "stem": stem,
         "facts": facts,
@@ -106,15 +110,27 @@ def generate(
         "constants": [f"{comment_text(s.name)} = {number(known[s])}" for s in known],
         "fields": [(field, comment_text(s.name)) for s, field in writer.fields.items()],
         "functions": functions,
-        "real": writer.precision.name,
+        "real": real,
         "f": writer.precision.suffix,
         "zero": number(Integer(0)),
         "one": number(Integer(1)),
         "digits": writer.precision.bits,
         "kernel": writer.kernel(functions.values()),
         "batch": many,
-        "ik": writer.inverse(facts, known, lock),
-        **c_context(),
+        "ik": c_section(
+            robot,
+            known,
+            writer.calls,
+            writer.precision,
+            stem,
+            writer.fields,
+            facts,
+            lock,
+            wanted=ik,
+        ),
+        "ik_head": c_head(stem, real, len(facts.joints), with_parameters=bool(writer.fields)),
+        "within_head": f"int {stem}_within_limits(const {real} q[{len(facts.joints)}])",
+        **c_dialect(stem, writer.precision).context(),
     }
     return (
         GeneratedFile(f"{stem}.h", fold(render("c/header.h.jinja", **context))),
@@ -152,6 +168,8 @@ class _Writer:
         Kind of all numbers.
     fields : dict of Symbol to str
         The fields of ``NAME_params``.
+    calls : dict of Op to str
+        What <math.h> calls its functions for that kind of number.
     """
 
     def __init__(
@@ -160,6 +178,7 @@ class _Writer:
         stem = file_stem(robot.name)
         self.stem = stem if precision is DOUBLE else f"{stem}_{precision.name}"
         self.precision = precision
+        self.calls = {op: call + self.precision.suffix for op, call in _FUNCTIONS.items()}
         self._is_inline = is_inline
         self._robot = robot
         self._own = {f"{self.stem}_{name}" for name in _OWN}
@@ -173,21 +192,13 @@ class _Writer:
         needed = widths(statements)
         return kernel(self.precision, needed, loses=takes_losses(statements)) if needed else None
 
-    def inverse(
-        self, facts: Facts, known: Mapping[Symbol, Expr], lock: tuple[Symbol, ...]
-    ) -> CSection:
-        """Write the inverse kinematics, or why there is none."""
-        if self.precision is not DOUBLE:
-            return CSection("it is written in double precision only")
-        return c_section(self._robot, known, _FUNCTIONS, self.stem, self.fields, facts, lock)
-
     def function(self, name: str, routine: Routine, results: Mapping[str, int]) -> _Function:
         """Write a routine as a function that fills some arrays, given with their sizes."""
-        functions = {op: function + self.precision.suffix for op, function in _FUNCTIONS.items()}
+        functions = self.calls
         scope = Scope(lambda n: n in self._own or _is_taken_locally(n) or n in functions.values())
         symbols = scope.take_symbols([*self.fields, *self._robot.variables])
         names: dict[Node, str] = {node: symbols[node.exact] for node in routine.inputs}
-        printer = _Printer(self.precision, functions, names)
+        printer = CPrinter(self.precision, functions, names)
         body = BodyWriter(self.stem, names, scope, printer, self.precision.literal(Integer(0)))
         write = body.in_stages if self._is_inline else body.in_line
         inputs = {node.exact for node in routine.inputs}
@@ -208,7 +219,7 @@ class _Writer:
 
     def batch(self, routine: Routine) -> Batch:
         """Write the pose for many joint values."""
-        functions = {op: function + self.precision.suffix for op, function in _FUNCTIONS.items()}
+        functions = self.calls
         # Both functions of the template and the array of entries keep their names.
         taken = {"squares", "square", "i", "q_stride", "q_step", "T_stride", "T_step"}
         taken |= set(functions.values())
@@ -219,7 +230,7 @@ class _Writer:
         for node in routine.inputs:
             if node.exact in self.fields:
                 names[node] = f"p->{self.fields[node.exact]}"
-        printer = _Printer(self.precision, functions, names)
+        printer = CPrinter(self.precision, functions, names)
         zero = self.precision.literal(Integer(0))
         body = PackWriter(self.stem, names, scope, printer, zero, varying).body(routine)
         places = {variable: place for place, variable in enumerate(self._robot.variables)}
@@ -257,7 +268,7 @@ class _Writer:
             if symbol in inputs:
                 yield Local(symbols[symbol], place)
 
-    def _elements(self, routine: Routine, printer: Printer, matrix: str, size: int) -> list[str]:
+    def _elements(self, routine: Routine, printer: CPrinter, matrix: str, size: int) -> list[str]:
         """Return the elements of a result, row by row; a pose ends in 0 0 0 1."""
         texts = [self.precision.literal(Integer(0))] * size
         if matrix == "T":
@@ -268,22 +279,6 @@ class _Writer:
                 place = columns * output.row + output.column
                 texts[place] = printer.expression(output.node)
         return texts
-
-
-class _Printer(Printer):
-    """Writes literals of a kind of number, and sums as MISRA C wants them."""
-
-    brackets_products = True
-
-    def __init__(
-        self, precision: Precision, functions: Mapping[Op, str], names: Mapping[Node, str]
-    ) -> None:
-        super().__init__(functions, names)
-        self._precision = precision
-
-    def number(self, value: Expr) -> str:
-        """Write an exact number."""
-        return self._precision.literal(value)
 
 
 def _is_taken_locally(name: str) -> bool:

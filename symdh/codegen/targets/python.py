@@ -59,7 +59,9 @@ class _Body:
     matrices: tuple[str, ...]
 
 
-def generate(robot: Robot, *, lock: tuple[Symbol, ...] = ()) -> tuple[GeneratedFile, ...]:
+def generate(
+    robot: Robot, *, lock: tuple[Symbol, ...] = (), ik: bool = True
+) -> tuple[GeneratedFile, ...]:
     """Generate ``NAME.py`` (see `symdh.codegen.generate`)."""
     program = write_program(robot, Language(calls=_CALLS, is_reserved=_RESERVED.__contains__))
     facts = program.facts
@@ -75,7 +77,7 @@ def generate(robot: Robot, *, lock: tuple[Symbol, ...] = ()) -> tuple[GeneratedF
         joint_names=[f'"{joint.name}"' for joint in facts.joints],
         joint_limits=[_limits(joint.limits) for joint in facts.joints],
         bodies={function.name: _body(function, symbols) for function in program.functions},
-        ik=python_section(robot, facts, _RESERVED.__contains__, lock),
+        ik=python_section(robot, facts, _RESERVED.__contains__, lock, wanted=ik),
         **python_context(),
     )
     return (GeneratedFile(f"{stem}.py", text),)

@@ -1,7 +1,7 @@
 """A Python extension around the generated C: a project of its own that pip installs.
 
 ``NAME_ext.fk(q)`` takes (..., n) to (..., 4, 4) as the Python module does, at the speed of C;
-``out=`` takes the result, so that a loop allocates nothing.
+``out=`` takes the result, so that a loop allocates nothing. ``NAME_ext.ik(T)`` goes back.
 """
 
 from __future__ import annotations
@@ -12,14 +12,18 @@ from dataclasses import dataclass
 
 from sympy import Symbol
 
-from symdh.codegen.facts import facts_of
+from symdh.codegen.facts import Facts, facts_of
+from symdh.codegen.inverse.constants import held_joints
+from symdh.codegen.inverse.found import LEFT_OUT, Missing
+from symdh.codegen.inverse.lowering import inverse_program
+from symdh.codegen.inverse.program import Program
 from symdh.codegen.names import PYTHON_KEYWORDS, Scope, comment_text, file_stem
 from symdh.codegen.targets import GeneratedFile, c
 from symdh.codegen.verification import CheckProgram, Poses
 from symdh.robot import Robot
 from symdh.templating import render
 
-_RESERVED = PYTHON_KEYWORDS | {"q", "out"}
+_RESERVED = PYTHON_KEYWORDS | {"q", "out", "T", "seed", "limits"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,13 +44,25 @@ class _Function:
     summary: str
 
 
-def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
+@dataclass(frozen=True, slots=True)
+class _Inverse:
+    """What is said of the inverse kinematics; without a plan, the reason why there is none."""
+
+    reason: str
+    plan: Program | None = None
+    limits: bool = False
+    locked_note: str = ""
+
+
+def generate(
+    robot: Robot, *, lock: tuple[Symbol, ...] = (), ik: bool = True
+) -> tuple[GeneratedFile, ...]:
     """Generate ``NAME.h``, ``NAME.c``, ``NAME_ext.c``, ``setup.py``, ``pyproject.toml``.
 
     See `symdh.codegen.generate`. As in C, parameters that have a value are compiled in, the others
     are keyword arguments, and a robot without joint variables gets no Jacobian.
     """
-    header, source = c.generate(robot)
+    header, source = c.generate(robot, lock=lock, ik=ik)
     facts = facts_of(robot)
     stem = file_stem(robot.name)
     context = {
@@ -57,6 +73,7 @@ def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
         "joint_lines": facts.joint_table("q[..., {}]"),
         "parameters": _keywords(robot),
         "functions": _functions(len(facts.joints)),
+        "ik": _inverse(robot, facts, lock, wanted=ik),
     }
     return (
         header,
@@ -72,6 +89,19 @@ def _keywords(robot: Robot) -> list[tuple[str, str]]:
     free: list[Symbol] = [symbol for symbol in robot.parameters if symbol not in robot.values]
     names = Scope(_RESERVED.__contains__).take_symbols(free)
     return [(name, comment_text(symbol.name)) for symbol, name in names.items()]
+
+
+def _inverse(robot: Robot, facts: Facts, lock: tuple[Symbol, ...], *, wanted: bool) -> _Inverse:
+    program = inverse_program(robot, None, lock) if wanted else LEFT_OUT
+    if isinstance(program, Missing):
+        return _Inverse(program.reason)
+    held = held_joints(facts, program)
+    return _Inverse(
+        reason="",
+        plan=program,
+        limits=any(joint.limits for joint in facts.joints),
+        locked_note=f"; so does {held}, which is locked" if held else "",
+    )
 
 
 def _functions(n: int) -> list[_Function]:

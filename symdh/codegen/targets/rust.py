@@ -1,18 +1,22 @@
 """Rust: one module that is ``no_std`` and needs no crate.
 
 ``fk(&q, f64::sin_cos)`` gives ``[[f64; 4]; 4]``, ``jacobian`` ``[[f64; n]; 6]``, ``fk_jacobian``
-both. Sine and cosine are no part of ``core``, so the caller passes them: ``f64::sin_cos`` of
-``std``, ``libm::sincos`` on a microcontroller.
+both; ``ik`` fills an array of the caller's. Sine and cosine are no part of ``core``, so the caller
+passes them: ``f64::sin_cos`` of ``std``, ``libm::sincos`` on a microcontroller.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
+from sympy import Symbol
+
 from symdh.codegen.calls import CALLS
-from symdh.codegen.functions import Function, Language, write_program
+from symdh.codegen.functions import Language, Program, write_program
 from symdh.codegen.graph import Op
+from symdh.codegen.inverse.compiled import Section
+from symdh.codegen.inverse.rust import functions_needed, rust_context, rust_section
 from symdh.codegen.names import file_stem, words
 from symdh.codegen.targets import GeneratedFile
 from symdh.codegen.verification import CheckProgram, Poses, find_program
@@ -56,7 +60,10 @@ _KEYWORDS = words(
 )
 #: ``let None`` would be a pattern, not a name.
 _OWN = words(
-    "q p T J f64 usize Params Default N_JOINTS fk jacobian fk_jacobian sin_cos None Some Ok Err"
+    """
+    q p T J f64 usize Params Default N_JOINTS fk jacobian fk_jacobian sin_cos None Some Ok Err
+    IK_MAX LIMITS PI Search TAU TURNS Unknown branches found goal_of ik within_limits wrapped
+    """
 )
 _RESERVED = _KEYWORDS | _OWN | frozenset(_CALLS.values())
 
@@ -73,12 +80,17 @@ _LANGUAGE = Language(
 )
 
 
-def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
+def generate(
+    robot: Robot, *, lock: tuple[Symbol, ...] = (), ik: bool = True
+) -> tuple[GeneratedFile, ...]:
     """Generate ``name.rs``, in small letters as Rust has it (see `symdh.codegen.generate`)."""
     program = write_program(robot, _LANGUAGE)
     module = file_stem(robot.name).lower()
     if module in _NO_MODULES:
         module = f"{module}_arm"
+    names = (parameter.name for parameter in program.parameters)
+    fields = dict(zip(robot.parameters, names, strict=True))
+    inverse = rust_section(robot, fields, program.facts, _RESERVED.__contains__, lock, wanted=ik)
     text = render(
         "rust/module.rs.jinja",
         module=module,
@@ -86,14 +98,25 @@ def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
         facts=program.facts,
         n=len(program.facts.joints),
         joint_lines=program.facts.joint_table("q[{}]"),
-        passed={function.name: _passed(function) for function in program.functions},
+        passed={function.name: _passed(function.calls) for function in program.functions},
+        ik=inverse,
+        passed_ik=_passed_to_ik(program, inverse),
+        **rust_context(),
     )
     return (GeneratedFile(f"{module}.rs", text),)
 
 
-def _passed(function: Function) -> list[_Passed]:
-    """Return the functions that a caller of this one passes, sine and cosine first."""
-    return list(dict.fromkeys(_PASSED[op] for op in _PASSED if op in function.calls))
+def _passed(calls: Collection[Op]) -> list[_Passed]:
+    """Return the functions that a caller passes for some calls, sine and cosine first."""
+    return list(dict.fromkeys(_PASSED[op] for op in _PASSED if op in calls))
+
+
+def _passed_to_ik(program: Program, inverse: Section) -> list[_Passed]:
+    """Return what a caller of ``ik`` passes; it calls the other functions too."""
+    if inverse.plan is None:
+        return []
+    calls = functions_needed(inverse.plan)
+    return _passed(calls.union(*(function.calls for function in program.functions)))
 
 
 def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) -> CheckProgram:
@@ -103,7 +126,7 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
         "rust/check.rs.jinja",
         module=files[0].name.removesuffix(".rs"),
         has_parameters=bool(program.parameters),
-        passed=_passed(program.functions[0]),
+        passed=_passed(program.functions[0].calls),
         n=len(robot.variables),
         rows=poses.rows,
         parameters=[repr(value) for value in poses.parameters.values()],
