@@ -25,11 +25,14 @@ class Layout:
         What a line ends with that goes on in the next.
     behind_signs : bool
         Whether a line ends, not begins, with the sign between two terms.
+    end : str
+        What ends ``target = value``.
     """
 
     indent: str = "    "
     more: str = ""
     behind_signs: bool = False
+    end: str = ""
 
 
 _PLAIN = Layout()
@@ -54,13 +57,13 @@ def broken(text: str, depth: int, layout: Layout = _PLAIN) -> str:
 def broken_value(target: str, value: str, depth: int, layout: Layout = _PLAIN) -> str:
     """Indent ``target = value``, with brackets around a value that takes several lines."""
     begin = layout.indent * depth
-    line = f"{begin}{target}{value}"
+    line = f"{begin}{target}{value}{layout.end}"
     if len(line) <= _WIDTH:
         return line
     if _is_bracketed(value):
-        return broken(target + value, depth, layout)
+        return broken(target + value + layout.end, depth, layout)
     inner = broken(value, depth + 1, layout)
-    return f"{begin}{target}({layout.more}\n{inner}{layout.more}\n{begin})"
+    return f"{begin}{target}({layout.more}\n{inner}{layout.more}\n{begin}){layout.end}"
 
 
 def _is_bracketed(text: str) -> bool:

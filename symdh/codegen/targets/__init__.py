@@ -86,7 +86,12 @@ TARGETS: tuple[Target, ...] = (
     ),
     Target("julia", "a Julia module without dependencies", (".jl",)),
     Target("rust", "a Rust module that is no_std and needs no crate", (".rs",)),
-    Target("javascript", "an ES module with its TypeScript types", (".mjs", ".d.mts")),
+    Target(
+        "javascript",
+        "an ES module with its TypeScript types",
+        (".mjs", ".d.mts"),
+        options=("lock",),
+    ),
     Target(
         "python-ext",
         "a Python extension around the C, which pip installs",
