@@ -37,7 +37,7 @@ class Target:
     description : str
         One line of help.
     extensions : tuple of str
-        Of the files that it writes, in their order.
+        Of the files that it writes, in their order; some may have no use for the last.
     options : tuple of str
         Keywords that it takes besides the robot.
     in_derive : bool
@@ -82,9 +82,10 @@ TARGETS: tuple[Target, ...] = (
     Target(
         "matlab",
         "function files for MATLAB and Octave",
-        ("_fk.m", "_jacobian.m", "_fk_jacobian.m"),
+        ("_fk.m", "_jacobian.m", "_fk_jacobian.m", "_ik.m"),
+        options=("lock",),
     ),
-    Target("julia", "a Julia module without dependencies", (".jl",)),
+    Target("julia", "a Julia module without dependencies", (".jl",), options=("lock",)),
     Target("rust", "a Rust module that is no_std and needs no crate", (".rs",)),
     Target(
         "javascript",
