@@ -62,8 +62,8 @@ def broken_value(target: str, value: str, depth: int, layout: Layout = _PLAIN) -
         return line
     if _is_bracketed(value):
         return broken(target + value + layout.end, depth, layout)
-    inner = broken(value, depth + 1, layout)
-    return f"{begin}{target}({layout.more}\n{inner}{layout.more}\n{begin}){layout.end}"
+    inner = broken(value + layout.more, depth + 1, layout)
+    return f"{begin}{target}({layout.more}\n{inner}\n{begin}){layout.end}"
 
 
 def _is_bracketed(text: str) -> bool:

@@ -18,7 +18,8 @@ SCRIPT = Script(
 #: an exclamation mark are nobody else's.
 OWN = words(
     """
-    AbstractMatrix Bool Float64 Vector abs2 collect foreach isempty map nothing size sortperm sum zeros
+    AbstractMatrix Bool Float64 Vector abs2 collect foreach isempty map nothing size sortperm sum
+    zeros
     JOINT_LIMITS IK_FOUND IK_IS_ANGLE IK_NO_LINE IK_NO_PAIR IK_NO_SLIDE IK_TWISTS IkSearch
     each free freed goal ik ik_apart ik_circle_roots ik_free ik_goal ik_improved
     ik_is_within_limits ik_least_squares ik_line ik_miss ik_pair ik_polished ik_slide ik_step
