@@ -3,35 +3,67 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 
 _WIDTH = 100
-_INDENT = "    "
+_ARGUMENTS = re.compile(r"(?<=[,|]) ")
 #: Where a statement is broken: between arguments, else before a sign, else before a factor.
-_PLACES = (re.compile(r"(?<=[,|]) "), re.compile(r" (?=[+-] )"), re.compile(r" (?=[*/] )"))
+_BEFORE = (_ARGUMENTS, re.compile(r" (?=[+-] )"), re.compile(r" (?=[*/] )"))
+#: The same where a line that begins with a sign would be a statement of its own.
+_BEHIND = (_ARGUMENTS, re.compile(r"(?<= [+-]) "), re.compile(r"(?<= [*/]) "))
 
 
-def broken(text: str, depth: int) -> str:
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """How a language sets statements over several lines.
+
+    Attributes
+    ----------
+    indent : str
+        One step of it.
+    more : str
+        What a line ends with that goes on in the next.
+    behind_signs : bool
+        Whether a line ends, not begins, with the sign between two terms.
+    end : str
+        What ends ``target = value``.
+    """
+
+    indent: str = "    "
+    more: str = ""
+    behind_signs: bool = False
+    end: str = ""
+
+
+_PLAIN = Layout()
+
+
+def broken(text: str, depth: int, layout: Layout = _PLAIN) -> str:
     """Indent a statement, and break it where it is too long for one line."""
-    begin = _INDENT * depth
+    begin, indent = layout.indent * depth, layout.indent
+    if len(begin) + len(text) <= _WIDTH:
+        return begin + text
+    width = _WIDTH - len(begin) - len(layout.more)
     lines: list[str] = []
-    for piece in _pieces(text, _WIDTH - len(begin) - len(_INDENT), _PLACES):
-        room = _WIDTH - len(begin) - (len(_INDENT) if len(lines) > 1 else 0)
+    for piece in _pieces(text, width - len(indent), _BEHIND if layout.behind_signs else _BEFORE):
+        room = width - (len(indent) if len(lines) > 1 else 0)
         if lines and len(lines[-1]) + 1 + len(piece) <= room:
             lines[-1] += f" {piece}"
         else:
             lines.append(piece)
-    return f"\n{begin}{_INDENT}".join([begin + lines[0], *lines[1:]])
+    return f"{layout.more}\n{begin}{indent}".join([begin + lines[0], *lines[1:]])
 
 
-def broken_value(target: str, value: str, depth: int) -> str:
+def broken_value(target: str, value: str, depth: int, layout: Layout = _PLAIN) -> str:
     """Indent ``target = value``, with brackets around a value that takes several lines."""
-    line = f"{_INDENT * depth}{target}{value}"
+    begin = layout.indent * depth
+    line = f"{begin}{target}{value}{layout.end}"
     if len(line) <= _WIDTH:
         return line
     if _is_bracketed(value):
-        return broken(target + value, depth)
-    begin = _INDENT * depth
-    return f"{begin}{target}(\n{broken(value, depth + 1)}\n{begin})"
+        return broken(target + value + layout.end, depth, layout)
+    inner = broken(value + layout.more, depth + 1, layout)
+    return f"{begin}{target}({layout.more}\n{inner}\n{begin}){layout.end}"
 
 
 def _is_bracketed(text: str) -> bool:

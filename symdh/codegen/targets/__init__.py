@@ -37,7 +37,7 @@ class Target:
     description : str
         One line of help.
     extensions : tuple of str
-        Of the files that it writes, in their order.
+        Of the files that it writes, in their order; some may have no use for the last.
     options : tuple of str
         Keywords that it takes besides the robot.
     in_derive : bool
@@ -87,16 +87,22 @@ TARGETS: tuple[Target, ...] = (
     Target(
         "matlab",
         "function files for MATLAB and Octave",
-        ("_fk.m", "_jacobian.m", "_fk_jacobian.m"),
+        ("_fk.m", "_jacobian.m", "_fk_jacobian.m", "_ik.m"),
+        options=("lock", "ik"),
     ),
-    Target("julia", "a Julia module without dependencies", (".jl",)),
+    Target("julia", "a Julia module without dependencies", (".jl",), options=("lock", "ik")),
     Target(
         "rust",
         "a Rust module that is no_std and needs no crate",
         (".rs",),
         options=("lock", "ik"),
     ),
-    Target("javascript", "an ES module with its TypeScript types", (".mjs", ".d.mts")),
+    Target(
+        "javascript",
+        "an ES module with its TypeScript types",
+        (".mjs", ".d.mts"),
+        options=("lock", "ik"),
+    ),
     Target(
         "python-ext",
         "a Python extension around the C, which pip installs",

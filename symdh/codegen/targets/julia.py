@@ -1,15 +1,20 @@
 """Julia: one module without dependencies, generic in the type of number.
 
-``fk(q)`` gives T, 4 x 4, ``jacobian(q)`` J, 6 x n, ``fk_jacobian(q)`` both.
+``fk(q)`` gives T, 4 x 4, ``jacobian(q)`` J, 6 x n, ``fk_jacobian(q)`` both; ``ik(T)`` goes
+back.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
+from sympy import Symbol
+
 from symdh.codegen.calls import CALLS
 from symdh.codegen.functions import Language, required_values, write_program
 from symdh.codegen.graph import Op
+from symdh.codegen.inverse.julia import OWN, SCRIPT
+from symdh.codegen.inverse.script import script_context, script_section
 from symdh.codegen.names import file_stem, words
 from symdh.codegen.targets import GeneratedFile
 from symdh.codegen.verification import CheckProgram, Poses, find_program
@@ -32,7 +37,7 @@ _OWN = words(
     jacobian fk_jacobian check
     """
 )
-_RESERVED = _KEYWORDS | _OWN | frozenset(_CALLS.values())
+_RESERVED = _KEYWORDS | _OWN | OWN | frozenset(_CALLS.values())
 
 
 _LANGUAGE = Language(
@@ -44,7 +49,9 @@ _LANGUAGE = Language(
 )
 
 
-def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
+def generate(
+    robot: Robot, *, lock: tuple[Symbol, ...] = (), ik: bool = True
+) -> tuple[GeneratedFile, ...]:
     """Generate ``NAME.jl`` (see `symdh.codegen.generate`)."""
     program = write_program(robot, _LANGUAGE)
     stem = file_stem(robot.name)
@@ -56,6 +63,8 @@ def generate(robot: Robot) -> tuple[GeneratedFile, ...]:
         facts=program.facts,
         n=len(program.facts.joints),
         joint_lines=program.facts.joint_table("q[{}]", first=1),
+        ik=script_section(robot, program.facts, _LANGUAGE, SCRIPT, lock, wanted=ik),
+        **script_context(_LANGUAGE, SCRIPT),
     )
     return (GeneratedFile(f"{stem}.jl", text),)
 
