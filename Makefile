@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed-for-development
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check golden bench bench-ik bench-code lint-c repro trust trust-cut vendor clean
+.PHONY: help run test check golden bench bench-ik bench-code accuracy lint-c repro trust trust-cut vendor clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 16
@@ -34,6 +34,9 @@ bench-ik: $(STAMP) ## time and count inverse kinematics in C beside EAIK
 
 bench-code: $(STAMP) ## time generated code beside CasADi, SymForce, sympy and Pinocchio
 	$(BIN)/python tests/bench_code.py
+
+accuracy: $(STAMP) ## 1e5 poses of every table from C and Python, judged by mpmath at 50 digits
+	$(BIN)/python tests/accuracy.py
 
 lint-c: $(STAMP) ## every compiler and linter at its strictest over generated C of every table
 	$(BIN)/python tests/lint_c.py

@@ -38,7 +38,7 @@ CLANG_CPP_OFF = [
     "-Wno-old-style-cast",  # C has no other
     "-Wno-zero-as-null-pointer-constant",  # C has no nullptr
 ]
-MODES = ([], ["-mavx"], ["-U__SSE2__"], ["-ffast-math"])
+MODES = ([], ["-mavx"], ["-mavx512f"], ["-U__SSE2__"], ["-ffast-math"])
 
 TIDY = (
     "-*,bugprone-*,cert-*,clang-analyzer-*,misc-*,performance-*,portability-*,"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+from pathlib import Path
 
 import pytest
 
@@ -25,3 +26,9 @@ def require_tool(name: str) -> str:
             pytest.fail(message)
         pytest.skip(message)
     return path
+
+
+def has_instructions(name: str) -> bool:
+    """Say whether this machine runs an extension of its instruction set, as Linux calls it."""
+    cpu = Path("/proc/cpuinfo")
+    return cpu.exists() and name in cpu.read_text().split()

@@ -132,7 +132,7 @@ class PackWriter(BodyWriter):
         return text if same else f"{self._stem}_spread({text})"
 
     def _lost_function(self, total: Node) -> str:
-        return f"{self._stem}_{'lost_pack' if total in self._varying else 'lost'}"
+        return f"{self._stem}_{'lost_wide' if total in self._varying else 'lost'}"
 
     def _turned(self, angles: Sequence[Angle]) -> Iterator[Statement]:
         for angle in angles:

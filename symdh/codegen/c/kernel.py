@@ -25,6 +25,9 @@ class Kernel:
         An unsigned integer as wide as the number.
     sign_shift : int
         From bit 1 to the sign bit.
+    wide : tuple of int
+        How many poses of a batch may stand side by side, from the widest registers to the
+        narrowest.
     ulps : int
         The largest error for angles up to 100 rad; tests/test_codegen_trig.py measures it.
     offset : int
@@ -39,6 +42,7 @@ class Kernel:
     loses: bool
     bits: str
     sign_shift: int
+    wide: tuple[int, ...]
     limit: str
     ulps: int
     shift: str
@@ -64,6 +68,14 @@ class Kernel:
             names += [f"lost{i}" for i in range(width)]
         return ", ".join(f"{self.real} {name}" for name in names)
 
+    def sum_of(self, pack: str, width: int) -> str:
+        """Write the sum of the elements of a pack, by halving."""
+        terms = [f"{pack}[{i}]" for i in range(width)]
+        while len(terms) > 2:
+            pairs = zip(terms[::2], terms[1::2], strict=True)
+            terms = [f"({first} + {second})" for first, second in pairs]
+        return " + ".join(terms)
+
     def lost(self, place: int) -> str:
         """Write what the sum of an angle has lost."""
         return f"lost{place}" if self.loses else self.zero
@@ -80,6 +92,7 @@ def kernel(precision: Precision, widths: Collection[int], *, loses: bool) -> Ker
         loses=loses,
         bits="__UINT64_TYPE__" if is_double else "__UINT32_TYPE__",
         sign_shift=62 if is_double else 30,
+        wide=(8, 4, 2) if is_double else (16, 8, 4),
         limit=number(precision.limit),
         ulps=2 if is_double else 3,
         # Half of what is just too large for fractions, so that the sum stays above it.

@@ -39,7 +39,8 @@ _FUNCTIONS = CALLS | {Op.ABS: "fabs"}
 _OWN = (
     *("fk", "jacobian", "fk_jacobian", "params", "N_JOINTS"),
     *("WIDTH", "INLINE", "pack", "bits", "lost", "library", "sincos", "sincos2", "sincos4"),
-    *("fk_batch", "fk_poses", "fk_pack", "lost_pack", "spread", "gather", "one"),
+    *("fk_batch", "fk_poses", "fk_wide", "WIDE", "wide", "wide_bits", "sincos_wide", "lost_wide"),
+    *("spread", "gather", "scatter", "one"),
 )
 
 
