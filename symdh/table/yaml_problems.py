@@ -23,7 +23,7 @@ class Mark(Protocol):
 
 
 def place_of(mark: Mark | None) -> Place:
-    """Return a position of PyYAML, which all that it reads and refuses in a text has, as a place."""
+    """Return a position of PyYAML as a place; all that it reads or refuses in a text has one."""
     assert mark is not None
     return Place(mark.line + 1, mark.column + 1, mark.column + 1)
 
