@@ -288,6 +288,28 @@ def test_a_factor_in_a_table_of_radians_stays_a_factor() -> None:
     assert symdh.loads(table_yaml(robot)).joints == robot.joints
 
 
+NAMED = """\
+name: named
+convention: standard
+joints:
+  - {theta: q1 + k, d: 1, a: pi/7, alpha: 2*pi/7, variable: q1}
+  - {theta: pi/7, d: h + q2, a: 0, alpha: -pi/7, type: prismatic, variable: q2}
+  - {theta: 0, d: 3, a: 0, alpha: 0}
+  - {theta: 0, d: h, a: 0, alpha: 0, type: fixed}
+values: {k: 3*pi/7}
+"""
+
+
+@pytest.mark.parametrize("form", ["yaml", "json", "csv", "markdown"])
+def test_named_variables_and_odd_parts_of_a_turn_come_back(form: str) -> None:
+    robot = symdh.loads(NAMED)
+    assert [str(variable) for variable in robot.variables] == ["q1", "q2"]
+    text = export(robot, form).text
+    assert symdh.loads(text) == robot
+    assert "-pi/7" in text
+    assert "1*pi" not in text
+
+
 # -- text formats ----------------------------------------------------------------------------------
 
 
@@ -439,6 +461,29 @@ def test_a_variable_may_have_the_name_of_a_fixed_joint() -> None:
     )
 
 
+@pytest.mark.parametrize("pitch", ["90 deg", "-90 deg"])
+def test_urdf_of_a_frame_that_points_straight_up_or_down(pitch: str) -> None:
+    # Roll and yaw are then about one line, and only their sum or difference is told.
+    text = (
+        "name: up\nconvention: standard\nunits: {length: m}\n"
+        "joints: [{theta: q1, d: 0, a: 1, alpha: 0}]\n"
+        f"tool: [Rz(30 deg), Ry({pitch}), Rx(20 deg)]\n"
+    )
+    chain = read_chain(export(symdh.loads(text), "urdf").text, "base_link", "tool0")
+    check(chain.pose, read_arm(text), 8)
+
+
+def test_matlab_names_no_two_joints_alike() -> None:
+    robot = symdh.loads(
+        "name: a\nconvention: standard\njoints:\n"
+        "  - {theta: to_tool, d: 0, a: 1, alpha: 0}\n"
+        "  - {theta: fixed3, d: 0, a: 1, alpha: 0}\n"
+        "  - {theta: 0, d: 0, a: 1, alpha: 0}\ntool: [Tx(2)]\n"
+    )
+    bodies = read_matlab(export(robot, "matlab").text).bodies
+    assert [body.joint for body in bodies] == ["to_tool", "fixed3", "fixed3_", "to_tool_"]
+
+
 @each_table
 def test_matlab_has_the_pose_of_the_table(table: Path) -> None:
     tree = read_matlab(export(load(table), "matlab").text)
@@ -491,6 +536,14 @@ def test_rtb_takes_outer_fixed_rows_into_base_and_tool(
 def test_rtb_says_that_it_has_no_fixed_link() -> None:
     with pytest.raises(UnsupportedError, match="row 3 is fixed and stands between two joints"):
         export(crooked("standard")[0], "rtb")
+
+
+def test_rtb_wants_a_joint_that_moves() -> None:
+    still = symdh.loads(
+        "name: post\nconvention: standard\njoints: [{theta: 0, d: 1, a: 0, alpha: 0}]\n"
+    )
+    with pytest.raises(UnsupportedError, match=r"^no joint of post moves: there is no DHRobot"):
+        export(still, "rtb")
 
 
 @pytest.mark.parametrize("name", ["pi", "np", "end", "DHRobot", "robot", "numpy"])

@@ -28,11 +28,31 @@ import symdh
 from symdh.errors import DerivationError
 from symdh.notation import Notation, Piece, Shorthand, break_lines, joined, total_width
 from symdh.notation.names import GREEK, split_name
-from symdh.notation.nodes import Number, Short, leaves, mapped
+from symdh.notation.nodes import (
+    Cross,
+    Dot,
+    Equation,
+    Juxtaposed,
+    Listed,
+    Matrix,
+    Name,
+    Node,
+    Number,
+    Operator,
+    Product,
+    Short,
+    Sum,
+    Transposed,
+    Tuple,
+    leaves,
+    mapped,
+)
 from symdh.notation.numbers import decimal, figures
+from symdh.notation.pieces import MathWriter
 from symdh.render.latex_math import LatexWriter
 from symdh.render.plain_math import PlainWriter
 from symdh.render.unicode_math import UnicodeWriter
+from symdh.robot import Axis, MotionKind
 from symdh.table import parse_expression
 
 HEAD = "name: arm\nconvention: standard\njoints:\n"
@@ -425,6 +445,36 @@ def test_a_map_reaches_every_leaf_and_keeps_the_rest() -> None:
     marked = mapped(node, lambda leaf: Number(Integer(7)))
     assert len(leaves(marked)) == len(leaves(node)) > 6
     assert set(leaves(marked)) == {Number(Integer(7))}
+
+
+@pytest.mark.parametrize(
+    "around",
+    [
+        lambda a, b: Operator(MotionKind.ROTATION, Axis.X, Sum((a, b)), craig=True),
+        lambda a, b: Juxtaposed((a, b)),
+        lambda a, b: Equation((a, b)),
+        Dot,
+        Cross,
+        lambda a, b: Product((Transposed(a), b)),
+        lambda a, b: Tuple((a, b)),
+        lambda a, b: Listed((a, b)),
+        lambda a, b: Matrix(((a,), (b,))),
+    ],
+)
+def test_a_map_reaches_the_leaves_of_formulas(around: Callable[[Node, Node], Node]) -> None:
+    first, second, other = Name("a1"), Name("a2"), Number(Integer(7))
+    assert leaves(around(first, second)) == (first, second)
+    changed = mapped(around(first, second), lambda leaf: other if leaf == second else leaf)
+    assert changed == around(first, other)
+
+
+@pytest.mark.parametrize("writer", [PLAIN, UNICODE, LATEX])
+def test_a_node_that_a_writer_does_not_know_is_refused(writer: MathWriter) -> None:
+    class Integral:
+        pass
+
+    with pytest.raises(TypeError, match=r"^no way to write Integral$"):
+        writer.text(Sum((Name("a1"), Integral())))  # type: ignore[arg-type]
 
 
 @given(st.fractions(max_denominator=10**6))

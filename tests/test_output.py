@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
 import resource
 import signal
 import subprocess
 import sys
 import textwrap
+import threading
 from pathlib import Path
 
 import pytest
 
+from symdh.cli import output
 from symdh.cli.output import WrittenFile, is_marked, write_files
 from symdh.errors import OutputError, UnsupportedError
 
@@ -164,6 +167,111 @@ def test_a_failing_rename_puts_the_old_set_back(
     with pytest.raises(OutputError, match="input/output error"):
         write_files(tmp_path, SET)
     assert contents(tmp_path) == {name: OLD[name] for name in ("arm.h", "arm.py")}
+
+
+def test_without_hard_links_the_old_set_is_copied_and_put_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fill(tmp_path, OLD)
+    real, calls = Path.replace, []
+
+    def replace(source: Path, target: Path) -> Path:
+        calls.append(target)
+        if len(calls) == 2:
+            raise OSError(errno.EIO, os.strerror(errno.EIO))
+        return real(source, target)
+
+    def link(source: Path, target: Path) -> None:
+        raise OSError(errno.EPERM, os.strerror(errno.EPERM))
+
+    monkeypatch.setattr(Path, "replace", replace)
+    monkeypatch.setattr(os, "link", link)
+    with pytest.raises(OutputError, match="input/output error"):
+        write_files(tmp_path, SET)
+    assert [path.name for path in calls] == ["arm.h", "arm.c", "arm.h"]
+    assert contents(tmp_path) == OLD
+
+
+def test_a_folder_that_another_run_holds_is_left_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fill(tmp_path, OLD)
+    monkeypatch.setattr(output, "LOCK_PATIENCE", 0.05)
+    other = os.open(tmp_path, os.O_RDONLY)
+    try:
+        fcntl.flock(other, fcntl.LOCK_EX)
+        with pytest.raises(OutputError, match="another run holds it"):
+            write_files(tmp_path, SET)
+        assert contents(tmp_path) == OLD
+    finally:
+        os.close(other)
+    write_files(tmp_path, SET)
+    assert contents(tmp_path) == SET
+
+
+@pytest.mark.parametrize("what", ["flock", "open"])
+def test_without_locks_files_are_written_all_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, what: str
+) -> None:
+    fill(tmp_path, OLD)
+    real = os.open
+
+    def flock(descriptor: int, operation: int) -> None:
+        raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))
+
+    def open_file(path: object, flags: int, *more: int, **named: object) -> int:
+        if path == tmp_path:  # a folder that may be written and not read
+            raise OSError(errno.EACCES, os.strerror(errno.EACCES))
+        return real(path, flags, *more, **named)  # type: ignore[arg-type]
+
+    if what == "flock":
+        monkeypatch.setattr(fcntl, "flock", flock)
+    else:
+        monkeypatch.setattr(os, "open", open_file)
+    write_files(tmp_path, SET)
+    assert contents(tmp_path) == SET
+
+
+def test_what_runs_of_others_left_or_still_need(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    no_process = tmp_path / f".symdh-{10**30}-00112233"  # no system counts so far
+    of_another_user = tmp_path / ".symdh-1-00112233"
+    for folder in (no_process, of_another_user):
+        folder.mkdir()
+    real = os.kill
+
+    def kill(pid: int, number: int) -> None:
+        if pid == 1:
+            raise PermissionError(errno.EPERM, os.strerror(errno.EPERM))
+        real(pid, number)
+
+    monkeypatch.setattr(os, "kill", kill)
+    write_files(tmp_path, SET)
+    assert {each.name for each in tmp_path.iterdir()} == {*SET, of_another_user.name}
+
+
+def test_a_signal_waits_until_the_set_is_in_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fill(tmp_path, OLD)
+    seen = []
+    before = signal.signal(
+        signal.SIGTERM, lambda number, frame: seen.append((number, contents(tmp_path)))
+    )
+    monkeypatch.setattr(os, "fsync", lambda descriptor: signal.raise_signal(signal.SIGTERM))
+    try:
+        write_files(tmp_path, SET)
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert seen == [(signal.SIGTERM, SET)]  # once, however often it came
+
+
+def test_a_thread_may_write_too(tmp_path: Path) -> None:
+    thread = threading.Thread(target=write_files, args=(tmp_path, SET))
+    thread.start()
+    thread.join()
+    assert contents(tmp_path) == SET
 
 
 @pytest.mark.parametrize("failing", range(len(SET)))

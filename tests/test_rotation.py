@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from conftest import Runner
 from evaluate import MP, number, value_of
-from oracle import EXTENDED, elementary, read_arm_file
+from oracle import EXTENDED, elementary, read_arm, read_arm_file
 from sympy import Expr, ImmutableMatrix, Symbol, pi
 
 from symdh.cli.main import run
@@ -502,6 +502,8 @@ SHEET = "units: {angle: deg}\nrotations: [Rx(u) body, Rz(90) fixed]\nvalues: {u:
         (SHEET.replace("u: 30", "v: 30"), (3, 10), "v is not in the table"),
         ("rotations: []", (1, 12), "there is no rotation here"),
         ("rotations: &a [Rx(1 deg) body]", (1, 12), "anchor"),
+        ("matrix: {a: 1}", (1, 9), "a list of numbers is wanted here, not a mapping"),
+        ("rotations: Rx(1 deg) body\npoint: [1, {a: 2}, 3]", (2, 12), "a number is wanted here"),
     ],
 )
 def test_wrong_sheets_are_told_at_their_place(text: str, place: tuple[int, int], says: str) -> None:
@@ -512,7 +514,8 @@ def test_wrong_sheets_are_told_at_their_place(text: str, place: tuple[int, int],
 
 
 def test_a_sheet_is_read() -> None:
-    sheet = read_rotation_sheet(from_text(SHEET + "point: [1, b, 3]\n", "sheet.yaml"))
+    text = SHEET + "point: [1, b, 3]\nx-for-people: anything\n"
+    sheet = read_rotation_sheet(from_text(text, "sheet.yaml"))
     assert [(each.axis.name, each.fixed) for each in sheet.rotations] == [("X", False), ("Z", True)]
     assert sheet.rotations[1].angle == pi / 2
     assert {key.name: value for key, value in sheet.values.items()} == {"u": pi / 6}
@@ -596,6 +599,33 @@ def test_the_orientation_of_an_arm_agrees_with_the_oracle(
     assert np.abs(back - expected).max() < 1e-14
 
 
+def test_a_point_in_a_matrix(empty: Path, capsys: Capture) -> None:
+    command = ["rotate", "--matrix", "0 -1 0; 1 0 0; 0 0 1", "--point", "1,2,3"]
+    assert run([*command, "--format", "json"]) == 0
+    assert json.loads(capsys.readouterr().out)["moved"] == ["-2", "1", "3"]
+
+
+def test_an_arm_without_a_closed_form_has_numbers(empty: Path, capsys: Capture) -> None:
+    # No two of the ten axes are parallel at once: the formula would fill pages.
+    joints = "".join(f"  - {{theta: q{i}, d: 1, a: 1, alpha: 90 deg}}\n" for i in range(1, 11))
+    text = f"name: ten\nconvention: standard\njoints:\n{joints}"
+    Path("ten.yaml").write_text(text)
+    values = {f"q{i}": i / 4 for i in range(1, 11)}
+    settings = [f"--set={name}={value} rad" for name, value in values.items()]
+    assert run(["rotate", "--table", "ten.yaml", *settings, "--format", "json"]) == 0
+    got = json.loads(capsys.readouterr().out)
+    assert got["expressions"] is None
+    expected = read_arm(text).pose(values)[:3, :3]
+    assert np.abs(np.array(got["matrix"]) - expected).max() < 1e-14
+
+
+def test_numbered_angles_have_short_forms(empty: Path, capsys: Capture) -> None:
+    assert run(["rotate", "Rz(theta1) body, Rz(theta2) body", "--symbolic"]) == 0
+    assert "c₁₂" in capsys.readouterr().out
+    assert run(["rotate", "Rz(theta1) body, Rz(phi) body", "--symbolic"]) == 0
+    assert "cos(θ₁ + φ)" in capsys.readouterr().out
+
+
 def test_a_degenerate_case_is_spelt_out(empty: Path, capsys: Capture) -> None:
     assert run(["rotate", "Rz(30 deg) body, Rz(20 deg) body", "--euler", "zyz"]) == 0
     shown = " ".join(capsys.readouterr().out.split())
@@ -645,6 +675,12 @@ def test_bad_input_is_told_and_writes_nothing(
     assert says in shown.err
     assert shown.out == ""
     assert list(empty.iterdir()) == []
+
+
+def test_a_matrix_that_is_not_real_is_refused(empty: Path, capsys: Capture) -> None:
+    Path("odd.yaml").write_text("matrix: [1, 0, 0, 0, 1, 0, 0, 0, sqrt(k)]\nvalues: {k: -1}\n")
+    assert run(["rotate", "odd.yaml"]) == 2
+    assert "an entry of the matrix is 1.0*I, not a real number" in capsys.readouterr().err
 
 
 def test_a_bad_sheet_is_told_with_its_name(empty: Path, capsys: Capture) -> None:

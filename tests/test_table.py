@@ -12,6 +12,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 import yaml
+from conftest import Runner
 from sympy import Float, Integer, Rational, Symbol, pi
 
 from symdh.errors import Diagnostic, ReadError, Severity, TableError
@@ -312,7 +313,9 @@ def test_no_floats_anywhere() -> None:
         ("# ü\r\rname: Caf\xe9\n".encode("latin-1")[3:], "3:10", "byte 0xE9"),
         ("name: arm\n".encode("utf-16"), "1:1", "UTF-16"),
         ("name: arm\n".encode("utf-16-be"), "1:1", "UTF-16"),
-        (b"#" * (1 << 20) + b"#", "1:1", "over 1 MiB"),
+        (b"#" * (1 << 20) + b"#", "1:1", "file is over 1 MiB"),
+        ("#" * (1 << 20) + "#", "1:1", "text is over 1 MiB"),
+        ("%YAML 2.0\n---\n" + HEAD + ROW, "1:1", "not YAML: found incompatible YAML document"),
     ],
 )
 def test_what_is_not_the_yaml_of_a_table(text: str | bytes, where: str, words: str) -> None:
@@ -388,6 +391,23 @@ def test_what_is_not_the_yaml_of_a_table(text: str | bytes, where: str, words: s
         (HEAD + ROW + "limits: {q1: 3}\n", "5:14", "[lower, upper]"),
         (HEAD + ROW + "limits: {q1: [1 deg, -1 deg]}\n", "5:14", "lower limit is above"),
         (HEAD + ROW + "limits: {a1: [0, 1]}\n", "5:10", "a1 is not a joint variable"),
+        (HEAD + ROW + "limits: {q1: [q1, 1 deg]}\n", "5:15", "a number is wanted here, and q1"),
+        (HEAD + ROW + "values: {q1: [0]}\n", "5:14", "an expression is wanted here, not a list"),
+        (HEAD + "columns: [theta, [d], a]\nrows: [[0]]\n", "3:18", "name of a column is wanted"),
+        (HEAD + "columns: [theta, d, a, alpha]\nrows: 5\n", "4:7", "rows must be a list of rows"),
+        ("name: arm\nconvention: [standard]\n" + ROW, "2:13", "a convention is wanted here"),
+        (
+            rows("theta: q1, d: 0, a: 0, alpha: 0", "theta: q2, d: q1, a: 0, alpha: 0"),
+            "5:20",
+            "joint variable q1 of joint 1 stands in d of joint 2",
+        ),
+        (
+            HEAD + ROW + "tool: [" + "Tx(1), " * 51 + "]\n",
+            "5:7",
+            "tool has 51 motions, over 50",
+        ),
+        (HEAD + ROW + "tool: Tx(1) (2)\n", "5:13", "unexpected (; write motions as Tx(a4)"),
+        (HEAD + ROW + "tool: Tx((1)\n", "5:13", "missing )"),
         (HEAD + "title: [x]\n" + ROW, "3:8", "a title is wanted here"),
         (HEAD + "title: " + "x" * 201 + "\n" + ROW, "3:8", "201 characters"),
         (HEAD + 'title: "a\\nb"\n' + ROW, "3:8", "one line"),
@@ -472,6 +492,22 @@ def test_diagnostic_shows_the_line_and_the_character() -> None:
     assert found.source[found.caret - 1] == "/"
 
 
+def test_an_unknown_name_is_no_news_where_an_expression_cannot_be_read() -> None:
+    text = rows("theta: q1, d: 0, a: a1 +, alpha: 0") + "values: {b1: 1}\n"
+    ((place, message),) = found_in(text)  # b1 could be what is missing after the +
+    assert place == "4:30"
+    assert "ends early" in message
+
+
+def test_decimals_near_a_common_angle_are_a_warning_each() -> None:
+    loaded = loads_table(rows("theta: 1.5708, d: q1, a: L1*sin(3.14159), alpha: 0"))
+    assert loaded.robot.joints[0].theta == Rational(15708, 10_000)
+    assert [(w.line, w.column, w.message[:14]) for w in loaded.warnings] == [
+        (4, 13, "near pi/2 but "),
+        (4, 38, "near pi but no"),
+    ]
+
+
 # Files
 
 
@@ -500,6 +536,19 @@ def test_standard_input() -> None:
             [sys.executable, "-c", program], input=text, capture_output=True, text=True, check=True
         )
         assert done.stdout == f"{name}\n"
+
+
+def test_standard_input_that_cannot_be_read(run_symdh: Runner) -> None:
+    closed = run_symdh("check", "-", preexec_fn=lambda: os.close(0))
+    assert closed.returncode == 3
+    assert closed.stderr.startswith("error: <stdin>: standard input is closed\n")
+
+    def write_only() -> None:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 0)
+
+    unreadable = run_symdh("check", "-", preexec_fn=write_only)
+    assert unreadable.returncode == 3
+    assert unreadable.stderr.startswith("error: <stdin>: bad file descriptor\n")
 
 
 def test_loading_is_quick() -> None:

@@ -261,6 +261,7 @@ def test_columns_may_differ_in_their_units() -> None:
         ("# units: {angle: grad}\ntheta,d,a_i,alpha_i\nq1,0,0,0\n", [("1:18", "grad unknown")]),
         ("# name: a\n# name: b\ntheta,d,a_i,alpha_i\nq1,0,0,0\n", [("2:3", "given twice")]),
         ("#name: [\ntheta,d,a_i,alpha_i\nq1,0,0,0\n", [("1:9", "")]),
+        ("theta,d,a_i,alpha_i\nq1" + "," * 101 + "\n", [("2:1", "more than 100 cells")]),
         ("1,2,3,4\n5,6,7,8\n", [("1:1", "no names of columns")]),
         ("theta,d,a_i,alpha_i\n", [("1:1", "at least one row")]),
         ("# nothing\n\n", [("1:1", "no rows")]),

@@ -211,6 +211,23 @@ def test_what_an_angle_stands_for(written: str, meant: Any) -> None:
     assert bool(chain.snaps) == (meant != Rational(written))
 
 
+@pytest.mark.parametrize(
+    ("limit", "limits", "warning"),
+    [
+        ('lower="-1" upper="2"', (-1, 2), ""),
+        ('lower="-1.5708" upper="100"', (-pi / 2, 100), ""),
+        ('lower="2" upper="-1"', None, "10:5: lower limit is above upper limit; left out"),
+        ('lower="2" upper="2"', None, ""),
+    ],
+)
+def test_limits(limit: str, limits: tuple[Any, Any] | None, warning: str) -> None:
+    chain = chain_of(TWO.replace('lower="-1" upper="2"', limit))
+    found = chain.joints[1].limits
+    assert (found and (found.lower, found.upper)) == limits
+    said = [f"{w.line}:{w.column}: {w.message}" for w in chain.warnings]
+    assert said == ([warning] if warning else [])
+
+
 def test_the_tolerance_is_the_users() -> None:
     assert chain_of(TWO, near=Rational(0)).joints[1].meant.rpy[0] == Rational("1.5708")
     assert chain_of(TWO, near=Rational(0)).snaps == ()
@@ -259,6 +276,15 @@ def test_an_axis_with_few_digits_is_made_a_unit_vector(axis: str, length: str) -
     )
     robot = imported(text, Convention.STANDARD)
     assert max(differences(robot, read_chain(text, "base", "hand"))) < 1e-14
+
+
+def test_an_axis_that_no_simple_fractions_fit_keeps_its_direction() -> None:
+    # The squares nearest to 0.0064, 0.0841 and 0.9095 with denominators up to 12 are 0, 1/12 and
+    # 10/11, which do not add up to 1.
+    chain = chain_of(TWO.replace(SECOND_AXIS, '0 0 0"/> <axis xyz="0.08 0.29 0.9537"/>'))
+    x, y, z = chain.joints[1].meant.axis
+    assert x**2 + y**2 + z**2 == 1
+    assert (x / z, y / z) == (Rational(800, 9537), Rational(2900, 9537))
 
 
 def test_nearly_parallel_axes_are_parallel_and_that_is_said(
@@ -310,6 +336,10 @@ BAD = [
     ('name="hand"/>', 'name="arm"/>', "2:54: link arm is there already"),
     ('name="two" type', 'name="one" type', "7:16: joint one is there already"),
     (LINKS, "", "1:1: the robot has no links"),
+    ('<link name="hand"/>', "<link/>", '2:42: <link> needs name="…"'),
+    (LINKS, f'{LINKS} <link name="table"/>', "2:62: link table hangs on nothing, like base;"),
+    (TWO, " \n", "1:1: file is empty"),
+    (TWO, TWO.replace("continuous", "fixed").replace("revolute", "fixed"), "1:1: no joint of the"),
     (SECOND_AXIS, '0 0 0"/> <axis xyz="0 0 2"/>', "9:52: the axis has length 2, and a unit vector"),
     (SECOND_AXIS, '0 0 0"/> <axis xyz="0 1 1"/>', "9:52: the axis has length 1.41421"),
     (SECOND_AXIS, '0 0 0"/> <axis xyz="0 0 0"/>', "9:52: the axis is zero and has no direction"),

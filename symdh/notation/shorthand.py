@@ -62,8 +62,6 @@ class Shorthand:
             if symbol not in self._numbers or coefficient not in (1, -1):
                 return None
             terms.append((self._numbers[symbol], int(coefficient)))
-        if not terms:
-            return None
         terms.sort()
         sign = terms[0][1]
         return JointSum(tuple((number, sign * own) for number, own in terms)), sign

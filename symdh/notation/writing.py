@@ -209,12 +209,8 @@ class Notation:
 
     def _factor_key(self, node: Node, factor: Expr) -> Key:
         match node:
-            case Number():
-                return (0,)
             case Name(text=text):
                 return (1, self._place.get(text, _LAST), text)
-            case Pi():
-                return (2,)
             case Root():
                 return (3,)
             case Power() if not factor.has(cos, sin):

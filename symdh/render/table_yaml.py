@@ -14,6 +14,7 @@ from symdh.notation.writing import is_decimal
 from symdh.robot import AngleUnit, Joint, JointType, Motion, MotionKind, Robot, in_name_order
 from symdh.table import ANGLE, symbol_dimension
 from symdh.table.lexer import MAX_EXPRESSION
+from symdh.table.near_pi import pi_text
 from symdh.table.quantity import MAX_BITS
 
 MARK = f"# written by symdh {__version__}"
@@ -166,7 +167,7 @@ def _angle_term(term: Expr, unit: AngleUnit | None) -> str:
     turns = term / pi
     if turns.is_Rational:
         degrees = turns * 180
-        return f"{decimal(degrees)} deg" if _is_short_decimal(degrees) else _in_pi(turns)
+        return f"{decimal(degrees)} deg" if _is_short_decimal(degrees) else pi_text(turns)
     if term.is_Rational:
         return _in_radians(term)
     return str(_AnglePrinter(unit).doprint(term))
@@ -176,11 +177,6 @@ def _in_radians(number: Rational) -> str:
     if _is_short_decimal(number):
         return f"{decimal(number)} rad"
     return f"({number.p}/{number.q}) rad"
-
-
-def _in_pi(turns: Rational) -> str:
-    over = "" if turns.q == 1 else f"/{turns.q}"
-    return f"{turns.p}*pi{over}"
 
 
 def _is_short_decimal(number: Rational) -> bool:

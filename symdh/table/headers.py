@@ -224,9 +224,9 @@ def _unit(header: Header, report: Report) -> Unit | None:
     unit = _known_unit(header.unit)
     if unit in kind.values():
         return unit
-    if header.node is not None:
-        message = f"unit {brief(header.unit)} of column {header.column} unknown"
-        report.error(header.node.place(), f"{message}; use {', '.join(kind)}")
+    assert header.node is not None  # where its unit was read
+    message = f"unit {brief(header.unit)} of column {header.column} unknown"
+    report.error(header.node.place(), f"{message}; use {', '.join(kind)}")
     return None
 
 

@@ -112,8 +112,6 @@ def parse_nodes(source: Source, text: str | None = None) -> MappingNode:
     except yaml.MarkedYAMLError as problem:
         mark = problem.problem_mark or problem.context_mark
         raise source.error(place_of(mark), plain_words(problem)) from None
-    except yaml.YAMLError as problem:
-        raise source.error(START, f"not YAML: {problem}".split("\n")[0]) from None
     root = builder.root
     if root is None or (isinstance(root, ScalarNode) and not root.text and not root.quoted):
         raise source.error(START, "file is empty; `symdh init` writes a table to start from")
@@ -225,7 +223,8 @@ class _Builder:
         elif top.key is not None:
             top.items.append((top.key, node))
             top.key = None
-        elif isinstance(node, ScalarNode):
+        else:
+            assert isinstance(node, ScalarNode)  # `take_node` has refused any other key
             self.refuse_key(node, top.lines_of_keys)
             top.lines_of_keys[node.text] = node.line
             top.key = node

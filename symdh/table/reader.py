@@ -147,12 +147,12 @@ def _read_rows(sections: Mapping[str, Node], header: Columns, report: Report) ->
         return rows_of_joints(joints, report)
     if columns is not None and rows is not None:
         return rows_of_columns(header, rows, report)
-    if columns is None and rows is None:
-        report.error(START, "joints is missing: the list of rows (or columns and rows)")
-    elif rows is None and columns is not None:
+    if columns is not None:
         report.error(columns.place(), "columns without rows")
     elif rows is not None:
         report.error(rows.place(), "rows without columns: say `columns: [alpha, a, d, theta]`")
+    else:
+        report.error(START, "joints is missing: the list of rows (or columns and rows)")
     return []
 
 

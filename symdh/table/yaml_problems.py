@@ -7,7 +7,7 @@ from typing import Protocol
 
 import yaml
 
-from symdh.table.source import START, Place
+from symdh.table.source import Place
 
 
 class Mark(Protocol):
@@ -23,9 +23,8 @@ class Mark(Protocol):
 
 
 def place_of(mark: Mark | None) -> Place:
-    """Return a position of PyYAML as a place; the start of the file if there is none."""
-    if mark is None:
-        return START
+    """Return a position of PyYAML as a place; all that it reads or refuses in a text has one."""
+    assert mark is not None
     return Place(mark.line + 1, mark.column + 1, mark.column + 1)
 
 
