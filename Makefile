@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed-for-development
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check golden bench bench-ik bench-code accuracy lint-c repro trust trust-cut vendor clean coverage
+.PHONY: help run test check golden bench bench-ik bench-code accuracy lint-c repro trust trust-cut vendor clean coverage mutants lock audit
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 16
@@ -53,6 +53,15 @@ lint-c: $(STAMP) ## every compiler and linter at its strictest over generated C 
 repro: $(STAMP) ## the same bytes over hash seeds, locales, versions of sympy and numpy
 	$(BIN)/python tests/repro.py
 
+mutants: $(STAMP) ## change the package at 200 random places; do the tests notice? (an hour)
+	$(BIN)/python tests/mutation.py
+
+lock: ## renew requirements-ci.txt, which CI installs from, within the ranges of pyproject.toml
+	python3 tools/lock.py
+
+audit: $(STAMP) ## dependencies: locked, within range, declared, free to use; known vulnerabilities
+	$(BIN)/python tools/audit.py
+
 trust: $(STAMP) ## fuzzing, faults, mutants and the like, each figure beside its goal (30 min)
 	$(BIN)/python tests/trust.py
 
@@ -63,9 +72,9 @@ vendor: ## renew the vendored KaTeX from npm (KATEX=0.19.1 for one version)
 	python3 tools/vendor_katex.py $(KATEX)
 
 clean: ## remove everything that make made
-	rm -rf $(VENV) out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis .coverage*
+	rm -rf $(VENV) .mutation .coverage* out build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
 
-$(STAMP): pyproject.toml tools/make_venv.py
+$(STAMP): pyproject.toml requirements-ci.txt tools/make_venv.py
 	@echo "setting up $(VENV), once"
 	@$(PYTHON) tools/make_venv.py $(VENV)
 	@touch $@

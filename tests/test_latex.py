@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from hostile import TITLES
 from sympy import Rational, Symbol, cos, sin
 
 import symdh
@@ -32,6 +33,7 @@ from symdh.render.latex import render_latex, render_transform
 from symdh.render.latex_math import LatexWriter
 from symdh.render.latex_text import latex_text
 from symdh.render.layout import LINE
+from symdh.render.pdf import compile_pdf
 from tools import require_tool
 
 ROOT = Path(__file__).parent
@@ -97,12 +99,14 @@ def overfull(log: str) -> list[str]:
 
 def printed(tex: str, folder: Path) -> str:
     """Return the text of the pages, as a reader who copies it gets it."""
-    pdftotext = require_tool("pdftotext")
     log = typeset(tex, folder, draft=False)
     assert overfull(log) == []
+    return text_of(folder / "handout.pdf")
+
+
+def text_of(pdf: Path) -> str:
     ran = subprocess.run(
-        [pdftotext, "-layout", "-enc", "UTF-8", "handout.pdf", "-"],
-        cwd=folder,
+        [require_tool("pdftotext"), "-layout", "-enc", "UTF-8", pdf, "-"],
         capture_output=True,
         encoding="utf-8",
         timeout=60,
@@ -260,17 +264,8 @@ def test_a_long_entry_is_broken_into_lines_that_fit(tmp_path: Path) -> None:
 # -- text -----------------------------------------------------------------------------------------
 
 HOSTILE = [
-    r"\write18{touch pwned}",
-    r"\input{/etc/passwd}",
-    r"\end{document} and more",
-    "100% of it",
-    "a_b^c #1 & $x$ ~ {braces} } {",
-    "\\ \\\\ \\%",
-    "<<title>> <% if %> <# note #>",
-    "-- --- - << >> ,, `` '' ?` !`",
+    *TITLES,
     "quotes \" ' ` “double” ‘single’",
-    "^^41^^5cinput",
-    "ff fi fl ffi",
     "dots… deg° x² m³ 5µ 2×3",
 ]
 
@@ -289,6 +284,14 @@ def test_a_hostile_title_prints_as_itself(title: str, tmp_path: Path) -> None:
     assert {each.name for each in tmp_path.iterdir()} <= {
         f"handout.{ending}" for ending in ("tex", "log", "aux", "pdf", "out")
     }
+
+
+def test_hostile_titles_print_as_themselves_in_lualatex_too(tmp_path: Path) -> None:
+    require_tool("lualatex")
+    tex = render_latex(document(*(Paragraph((f"Text {title} end.",)) for title in TITLES)))
+    (tmp_path / "handout.pdf").write_bytes(compile_pdf(tex, engine="lualatex"))
+    shown = bare(text_of(tmp_path / "handout.pdf"))
+    assert [title for title in TITLES if bare(f"Text {title} end.") not in shown] == []
 
 
 @pytest.mark.parametrize(

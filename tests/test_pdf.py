@@ -6,6 +6,7 @@ import shutil
 import tempfile
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ import pytest
 import symdh
 from symdh.derivation.derive import derive
 from symdh.errors import LimitError, OutputError
+from symdh.render import pdf
 from symdh.render.latex import render_latex
 from symdh.render.pdf import ENGINES, compile_pdf
 from tools import require_tool
@@ -224,6 +226,45 @@ def test_a_document_writes_only_beside_itself(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="I can't write on file"):
         compile_pdf(PREAMBLE + writing + "Text.\n\\end{document}", engine="pdflatex")
     assert not victim.exists()
+
+
+def lua(line: str) -> str:
+    """Return a document that runs a line of Lua and prints what it gives."""
+    return PREAMBLE + rf"\directlua{{{line}}}Text." + "\n\\end{document}"
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        r"os.execute([[touch VICTIM]])",
+        r"io.popen([[touch VICTIM]]):close()",
+        r"os.spawn({[[touch]], [[VICTIM]]})",
+        r"io.open([[VICTIM]], [[w]]):close()",
+        r"lfs.mkdir([[VICTIM]])",
+        r"require([[ffi]]).C.system([[touch VICTIM]])",
+    ],
+)
+def test_lua_in_a_document_starts_nothing_and_writes_nothing(line: str, tmp_path: Path) -> None:
+    require_tool("lualatex")
+    victim = tmp_path / "victim"
+    with suppress(OutputError):  # some calls raise, others only return nothing
+        compile_pdf(lua(line.replace("VICTIM", str(victim))), engine="lualatex")
+    assert not victim.exists()
+
+
+def test_it_is_the_switch_that_stops_lua(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    require_tool("lualatex")
+    monkeypatch.setattr(pdf, "_SAFER", "-no-shell-escape")
+    compile_pdf(lua(f"lfs.mkdir([[{tmp_path}/victim]])"), engine="lualatex")
+    assert (tmp_path / "victim").is_dir()
+
+
+def test_lua_reads_no_file_elsewhere(tmp_path: Path) -> None:
+    require_tool("lualatex")
+    (tmp_path / "secret").write_text("secret")
+    reading = f"tex.print(io.open([[{tmp_path}/secret]]):read([[*a]]))"
+    with pytest.raises(OutputError, match="lualatex failed"):
+        compile_pdf(lua(reading), engine="lualatex")
 
 
 def test_a_configuration_of_latexmk_is_not_read(

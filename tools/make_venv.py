@@ -1,7 +1,9 @@
 """Make a virtual environment and install this project into it: `python3 tools/make_venv.py DIR`.
 
-Called by the Makefile. Debian ships python3 without ensurepip; it is in the package python3-venv,
-which is installed here when the user is root, so that nothing need be installed by hand.
+Called by the Makefile. What is installed is the newest within the ranges of pyproject.toml, in CI
+(CI=true) exactly what requirements-ci.txt lists, each file by its hash. Debian ships python3
+without ensurepip; it is in the package python3-venv, which is installed here when the user is root,
+so that nothing need be installed by hand.
 """
 
 from __future__ import annotations
@@ -13,6 +15,7 @@ import sys
 from pathlib import Path
 
 OLDEST = (3, 11)
+LOCK = "requirements-ci.txt"
 ADVICE = "python3 cannot make a virtual environment here: apt-get install python3-venv, then again"
 
 
@@ -28,8 +31,26 @@ def main(folder: str) -> None:
     if subprocess.run([sys.executable, "-m", "venv", folder]).returncode != 0:
         sys.exit(ADVICE)
     install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-    if subprocess.run([*install, "--editable", ".[dev]"]).returncode != 0:
-        sys.exit("the packages named in pyproject.toml could not be installed: is there a network?")
+    for what in requirements():
+        if subprocess.run([*install, *what]).returncode != 0:
+            named = LOCK if in_ci() else "pyproject.toml"
+            sys.exit(f"the packages named in {named} could not be installed: is there a network?")
+
+
+def requirements() -> list[list[str]]:
+    """Return what to ask of pip, one run after the other."""
+    if not in_ci():
+        return [["--editable", ".[dev]"]]
+    # The build backend is in the lock file too, so that nothing comes from anywhere else.
+    return [
+        ["--require-hashes", "--requirement", LOCK],
+        ["--no-deps", "--no-build-isolation", "--editable", "."],
+    ]
+
+
+def in_ci() -> bool:
+    """Say whether this runs in continuous integration."""
+    return os.environ.get("CI", "").lower() in ("1", "true")
 
 
 def has_ensurepip() -> bool:

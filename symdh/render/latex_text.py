@@ -37,7 +37,7 @@ _ESCAPED = {
     "µ": r"\textmu{}",
     "×": r"\texttimes{}",
     "\u00a0": "~",
-    "\0": "{}",  # stands for nothing; see latex_text
+    "\0": r"{\kern0pt}",  # stands for nothing; see latex_text
 }
 #: Of the letters with and without accents up to ž, those that the fonts do not have.
 _LACKING = "ĦħĸĿŀŉŦŧ"
@@ -51,8 +51,9 @@ def latex_text(text: str) -> str:
     their code, and so are control characters, so that every title compiles. White space of any
     kind is a space.
     """
-    # A pair of braces keeps twins from becoming a ligature: two hyphens stay two hyphens.
-    apart = re.sub(r"([-,])(?=\1)", "\\1\0", text)
+    # Keeps twins from becoming a ligature: two hyphens stay two hyphens. To LuaTeX a pair of braces
+    # would not be enough, and the names of < and > are the signs themselves.
+    apart = re.sub(r"([-,<>])(?=\1)", "\\1\0", text)
     return "".join(_character(character) for character in apart)
 
 

@@ -15,12 +15,16 @@ from pathlib import Path
 
 from symdh.errors import LimitError, OutputError
 
-#: For LaTeX, in the order of preference; latexmk repeats runs as often as references need it.
-ENGINES = ("latexmk", "pdflatex")
+#: For LaTeX, in the order of preference; latexmk repeats runs of pdflatex as often as needed.
+ENGINES = ("latexmk", "pdflatex", "lualatex")
 #: The Python package that typesets where there is no TeX.
 TYPST = "typst"
 
 _FLAGS = ("-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape")
+#: LuaTeX without Lua's ways to start programs and to write files.
+_SAFER = "-safer"
+#: No dates (bits 32 and 64) and no number made of them (512) in what LuaTeX writes.
+_LUATEX_UNDATED = r"\pdfvariable suppressoptionalinfo 608 \input{%s}"
 _INSTALL_TYPST = "pip install 'symdh[pdf]'"
 _INSTALL = (
     "on Debian: apt install texlive-latex-recommended texlive-pictures lmodern; "
@@ -133,14 +137,17 @@ def _find(engine: str | None) -> str:
 
 
 def _run_tex(program: str, source: Path, time_limit: float) -> None:
-    if Path(program).name == "latexmk":
+    name = Path(program).name
+    if name == "latexmk":
         command = [program, "-norc", "-pdf", *_FLAGS, source.name]
+    elif name == "lualatex":
+        undated = _LUATEX_UNDATED % source.name
+        command = [program, _SAFER, *_FLAGS, f"-jobname={source.stem}", undated]
     else:
         command = [program, *_FLAGS, source.name]
     # The date would make two runs differ; TeX reads nothing from folders but its own.
     settings = {"SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"}
     settings |= {"openin_any": "p", "openout_any": "p"}
-    name = Path(program).name
     if _ended(name, command, source.parent, settings, time_limit, Path(os.devnull)) != 0:
         raise OutputError(f"{name} failed{_reason(source)}")
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 @options.file_option("NAME.pdf")
 @click.option(
     "--engine",
-    type=click.Choice(["auto", "latexmk", "pdflatex", "typst"]),
+    type=click.Choice(["auto", "latexmk", "pdflatex", "lualatex", "typst"]),
     default="auto",
     show_default=True,
     help="What typesets; auto: TeX where it is installed, else the package typst.",
