@@ -5,7 +5,7 @@ from __future__ import annotations
 from sympy import Add, Expr, Integer
 
 from symdh.derivation.blocks import Block, EntryStep, EntrySteps, Paragraph
-from symdh.derivation.inverse.formulas import equation, squared
+from symdh.derivation.inverse.formulas import equation, listed, squared
 from symdh.derivation.inverse.telling import Telling
 from symdh.kinematics.inverse.ring import Element
 from symdh.notation.nodes import (
@@ -43,6 +43,8 @@ def half_angle(telling: Telling) -> list[Block]:
                 *(equation(write(writer.sine(y)), _QUOTIENT_S), ", this is a "),
                 *(f"{degree} in ", _T, ". Each real root gives one value "),
                 equation(writer.unknown(y), Product((write(Integer(2)), Call("atan", (_T,))))),
+                "; they are called ",
+                *listed([writer.unknown(y, str(k + 1)) for k in range(step.branches)]),
                 ".",
             )
         ),
