@@ -11,7 +11,9 @@ if TYPE_CHECKING:
     from symdh.robot import Robot
 
 
-def assignment(robot: Robot, settings: tuple[str, ...]) -> dict[Symbol, Expr]:
+def assignment(
+    robot: Robot, settings: tuple[str, ...], option: str = "--set"
+) -> dict[Symbol, Expr]:
     """Read ``name=value`` texts, the last one of a name wins.
 
     Raises
@@ -21,7 +23,7 @@ def assignment(robot: Robot, settings: tuple[str, ...]) -> dict[Symbol, Expr]:
     """
     from symdh.table import parse_setting
 
-    return dict(parse_setting(robot, as_utf8(text)) for text in settings)
+    return dict(parse_setting(robot, as_utf8(text), option) for text in settings)
 
 
 def point(robot: Robot, text: str | None) -> tuple[Expr, Expr, Expr] | None:

@@ -7,7 +7,7 @@ a formula stands in it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from symdh.derivation.blocks import (
@@ -195,7 +195,8 @@ class Layout:
             # Right of the alignment: a long name on its left would push the entries off the page.
             names = self._names(block.names)
             names[-1] = replace(names[-1], right=names[-1].right + ":")
-            return Item("lines", names + self._steps(named_entries(block.matrix, block.names[0])))
+            entries = tuple(named_entries(block.matrix, block.names[0]))
+            return Item("lines", names + self._steps(entries))
         whole = Equation((*block.names, block.matrix))
         if self._math.width(whole) <= LINE:
             return Item("displays", [self._math.text(whole)])
@@ -232,8 +233,10 @@ class Layout:
             self._named_matrix(whole),
         ]
 
-    def _steps(self, steps: Iterable[EntryStep]) -> list[Line]:
-        return [line for step in steps for line in self._entry(step)]
+    def _steps(self, steps: Sequence[EntryStep]) -> list[Line]:
+        # The right-hand sides begin below each other, behind the widest left-hand side.
+        widest = max((self._math.width(step.name) for step in steps), default=0.0)
+        return [line for step in steps for line in self._entry(step, widest)]
 
     def _packed(self, matrices: Sequence[NamedMatrix]) -> Iterator[str]:
         """Yield displays with as many matrices side by side as fit."""
@@ -250,10 +253,10 @@ class Layout:
         if shown:
             yield f" {self._math.qquad} ".join(shown)
 
-    def _entry(self, step: EntryStep) -> list[Line]:
+    def _entry(self, step: EntryStep, widest: float) -> list[Line]:
         """Return an entry's forms as aligned lines, the identity's name behind the last."""
         left = self._math.text(step.name)
-        room = LINE - self._math.width(step.name) - self._math.equals().width
+        room = LINE - widest - self._math.equals().width
         equals = self._math.equals()
         forms = [[equals, *self._math.pieces(form)] for form in step.forms]
         reason = step.identity.value if step.identity else ""
@@ -285,9 +288,10 @@ class Layout:
         if len(groups) > 1 and sum(widths) + 2 * _GAP * len(widths) <= LINE:
             return Item("columns", self._side_by_side(groups))
         lines: list[Line] = []
+        widest = max(self._math.width(step.name) for group in groups for step in group)
         for group in groups:
             for position, step in enumerate(group):
-                entry = self._entry(step)
+                entry = self._entry(step, widest)
                 if lines and position == 0:
                     entry[0] = replace(entry[0], gap=True)
                 lines += entry

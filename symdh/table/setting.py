@@ -12,8 +12,15 @@ from symdh.table.suggest import brief, did_you_mean_symbol
 from symdh.table.uses import symbol_dimension
 
 
-def parse_setting(robot: Robot, text: str) -> tuple[Symbol, Expr]:
+def parse_setting(robot: Robot, text: str, source: str = SETTING) -> tuple[Symbol, Expr]:
     """Read ``theta1=30 deg`` or ``a1=0.4``; a bare number means what the table's units say.
+
+    Parameters
+    ----------
+    robot : Robot
+    text : str
+    source : str
+        The option that it was given to, for messages.
 
     Returns
     -------
@@ -29,20 +36,20 @@ def parse_setting(robot: Robot, text: str) -> tuple[Symbol, Expr]:
     """
     written, equals, value = text.partition("=")
     if not equals:
-        raise _error(text, len(text), "missing =; write name=value")
+        raise _error(source, text, len(text), "missing =; write name=value")
     symbol = Symbol(canonical_name(written.strip()), real=True)
     known = (*robot.variables, *robot.parameters)
     if symbol not in known:
         hint = did_you_mean_symbol(symbol.name, [name.name for name in known])
-        raise _error(text, 0, f"{brief(written)} is not in the table{hint}")
+        raise _error(source, text, 0, f"{brief(written)} is not in the table{hint}")
     # Blanks in place of the name keep the columns of a diagnostic those of the whole text.
     padded = " " * (len(text) - len(value)) + value
     try:
         return symbol, parse_quantity(padded, robot.units, symbol_dimension(robot, symbol))
     except TableError as problem:
         found = problem.diagnostics[0]
-        raise _error(text, max(found.column - 1, 0), found.message) from None
+        raise _error(source, text, max(found.column - 1, 0), found.message) from None
 
 
-def _error(text: str, offset: int, message: str) -> TableError:
-    return TableError([Diagnostic(message, SETTING, 1, offset + 1, text, offset + 1)])
+def _error(source: str, text: str, offset: int, message: str) -> TableError:
+    return TableError([Diagnostic(message, source, 1, offset + 1, text, offset + 1)])

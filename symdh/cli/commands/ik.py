@@ -110,13 +110,20 @@ def ik(
 
     robot = tables.read_robot(table)
     values = arguments.assignment(robot, settings)
+    near = arguments.assignment(robot, seeds, "--near")
     locked = tuple(arguments.joint(robot, name) for name in locks)
+    if trials is not None and (pose, output, form) != (None, None, "text"):
+        raise UnsupportedError("--check prints a report: leave --pose, --format and -o out")
     with patience.telling(f"searching for the inverse kinematics of {robot.name}"):
         found = inverse_kinematics(robot, wanted, locked, time_limit)
     if trials is not None:
         console.print_result(_checked(found, trials, values))
         return
-    solved = _solved(found, pose, values, arguments.assignment(robot, seeds))
+    solved = _solved(found, pose, values, near)
+    if near and solved is None:
+        raise UnsupportedError(
+            "--near sorts the solutions of a pose: give --pose, or --set for every joint"
+        )
     if output is None:
         from symdh.codegen.names import file_stem
 
@@ -165,10 +172,11 @@ def _solved(
 
 def _numbers(text: str) -> list[float]:
     words = [word for word in re.split(r"[\s,;\[\]()]+", text) if word]
+    wrong = ""
     try:
-        return [float(word) for word in words]
-    except ValueError as error:
-        raise UnsupportedError(f"--pose takes plain numbers: {error}") from None
+        return [float(wrong := word) for word in words]
+    except ValueError:
+        raise UnsupportedError(f"--pose takes plain numbers, and {wrong!r} is none") from None
 
 
 def _checked(found: InverseKinematics, trials: int, values: Mapping[Symbol, Expr]) -> str:
@@ -221,11 +229,15 @@ def _content(
 
         return render_page(document, found.robot).encode()
     from symdh.render.latex import render_latex
+    from symdh.render.pdf import TYPST, compile_pdf, compile_typst, find_engine
 
+    if form == "pdf" and find_engine() == TYPST:
+        from symdh.render.typst import render_typst
+
+        with patience.telling("typesetting"):
+            return compile_typst(render_typst(document, paper))
     tex = render_latex(document, paper=paper)
     if form == "latex":
         return tex.encode()
-    from symdh.render.pdf import compile_pdf
-
     with patience.telling("typesetting"):
         return compile_pdf(tex)

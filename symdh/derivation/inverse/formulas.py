@@ -27,11 +27,6 @@ def equation(left: Node, right: Node) -> Equation:
     return Equation((left, right))
 
 
-def squared(node: Node) -> Node:
-    """Return the square of a node, whatever its sign."""
-    return Power(node.node if isinstance(node, Negative) else node, Integer(2))
-
-
 def plus(first: Node, second: Node, sign: int) -> Node:
     """Return the sum of two formulas, or their difference."""
     return Sum((first, second if sign > 0 else Negative(second)))

@@ -171,7 +171,7 @@ def _shifted(form: ClosedForm, writer: Writer) -> list[Block]:
         "what follows ",
         *listed(list(dict.fromkeys(ends))),
         " is without it" if one else " stand without them",
-        ", and the position is that of the point w",
+        *(", and the position is that of the point ", Generic("w")),
         ", the centre of the wrist:" if form.structure.wrist else ":",
     ]
     known = NamedMatrix((Generic("G"), _chain_name(writer)), _goal_matrix(form, "w"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from sympy import Add, Expr, Integer
 
 from symdh.derivation.blocks import Block, EntryStep, EntrySteps, Paragraph
-from symdh.derivation.inverse.formulas import equation, squared
+from symdh.derivation.inverse.formulas import equation, listed
 from symdh.derivation.inverse.telling import Telling
 from symdh.kinematics.inverse.ring import Element
 from symdh.notation.nodes import (
@@ -43,6 +43,8 @@ def half_angle(telling: Telling) -> list[Block]:
                 *(equation(write(writer.sine(y)), _QUOTIENT_S), ", this is a "),
                 *(f"{degree} in ", _T, ". Each real root gives one value "),
                 equation(writer.unknown(y), Product((write(Integer(2)), Call("atan", (_T,))))),
+                "; they are called ",
+                *listed([writer.unknown(y, str(k + 1)) for k in range(step.branches)]),
                 ".",
             )
         ),
@@ -61,7 +63,9 @@ def _eliminated(telling: Telling, x: int) -> list[Block]:
     told = telling.introduced()
     if step.scales:
         l_1, l_2 = (writer.form.ring.expression(scale) for scale in step.scales)
-        left: Node = Sum(tuple(squared(writer.quotient(c, s)) for c, s in ((c_1, l_1), (c_2, l_2))))
+        left: Node = Sum(
+            tuple(Fraction(write(c**2), write(s**2)) for c, s in ((c_1, l_1), (c_2, l_2)))
+        )
         p, q = (
             _divided(telling, element, a, l_1)
             for element, a in zip(step.coefficients, (a_1, b_1), strict=False)

@@ -19,6 +19,7 @@ def without_closed_form(found: InverseKinematics) -> Chapter:
     """Say that there is no closed form, what was tried, what is missing, and what is done."""
     tried = found.tried
     assert tried is not None
+    joints = len(found.robot.variables) - len(found.locked)
     got = "nothing could be found first"
     if tried.steps:
         got = f"the search came as far as {counted(len(tried.steps), 'step')}"
@@ -31,7 +32,7 @@ def without_closed_form(found: InverseKinematics) -> Chapter:
                 f"angles down to a quartic were tried, and {got}.",
             )
         ),
-        Paragraph((missing_structure(found.structure),)),
+        Paragraph((missing_structure(found.structure, joints),)),
     ]
     match found.method:
         case Method.NOMINAL:

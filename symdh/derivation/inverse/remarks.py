@@ -12,6 +12,7 @@ from symdh.derivation.inverse.singular import around, lined_up_about, pair_that_
 from symdh.derivation.inverse.telling import Telling
 from symdh.kinematics.inverse.posture import Part
 from symdh.kinematics.inverse.solution import Rule
+from symdh.notation.nodes import Generic
 
 #: What is said of two values that the arm does not tell apart.
 _WITHOUT_NAMES = {
@@ -59,23 +60,23 @@ def free(telling: Telling, *parts: Expr) -> list[Block]:
     zero = listed([write(-x if x.could_extract_minus_sign() else x) for x in parts])
     both = "both" if len(parts) == 2 else "all"
     unknown = telling.writer.unknown(telling.step.unknown)
-    text = (f" are {both} zero, ", unknown, " is free; ", meaning_of_free(telling))
+    text = (f" are {both} zero, ", unknown, " is free; ", *meaning_of_free(telling))
     return [Paragraph(("Where ", *zero, *text))]
 
 
-def meaning_of_free(telling: Telling) -> str:
+def meaning_of_free(telling: Telling) -> tuple[Inline, ...]:
     """Say what a free angle means for the arm."""
     form = telling.writer.form
     moving, unknown = form.arm.moving, telling.step.unknown
     kept = "it may keep the value that it has."
     if not form.ring.is_angle(unknown):
-        return kept
+        return (kept,)
     rows = [row for row, _ in form.ring.forms[unknown]]
     if rows == [moving[0]] and len(moving) > 1 and _of_position(telling):
-        point = "w" if form.arm.is_shifted else "p"
+        point = Generic("w" if form.arm.is_shifted else "p")
         return (
-            f"then the point {point} lies on the axis of joint {rows[0]}, turning about it changes "
-            f"nothing, and {kept}"
+            *("then the point ", point, f" lies on the axis of joint {rows[0]}, turning about it "),
+            f"changes nothing, and {kept}",
         )
     both = lined_up_about(form, rows[-1])
     if form.task.with_orientation and both is not None:
@@ -83,11 +84,11 @@ def meaning_of_free(telling: Telling) -> str:
         return (
             f"then the axes of joints {both[0]} and {both[1]} are {how}, only the sum or the "
             "difference of the angles about them is determined, and this one may keep the value "
-            "that it has."
+            "that it has.",
         )
     if _of_position(telling):
-        return f"then turning it does not move the point that is compared, and {kept}"
-    return kept
+        return (f"then turning it does not move the point that is compared, and {kept}",)
+    return (kept,)
 
 
 def nothing_said(telling: Telling, where: Sequence[Inline]) -> list[Block]:
@@ -119,8 +120,8 @@ def nothing_said(telling: Telling, where: Sequence[Inline]) -> list[Block]:
         ]
     if step.alternatives and not _of_position(telling):
         text = ". Another pair of entries may serve there; where none does, "
-        return [Paragraph((*what, text, unknown, " is free: ", meaning_of_free(telling)))]
-    return [Paragraph((*what, " and ", unknown, " is free; ", meaning_of_free(telling)))]
+        return [Paragraph((*what, text, unknown, " is free: ", *meaning_of_free(telling)))]
+    return [Paragraph((*what, " and ", unknown, " is free; ", *meaning_of_free(telling)))]
 
 
 def _middle(telling: Telling) -> tuple[int, int] | None:

@@ -17,7 +17,8 @@ def slide(telling: Telling) -> list[Block]:
     row = EntryStep(writer.unknown(telling.step.unknown), (writer.quotient_of(-c, a),), None)
     blocks = [] if telling.has_written(row) else solution(row)
     if not ring.is_constant(a):
-        zero = ("Where ", writer.element(a), " is zero, this says nothing of ", row.name)
+        factor = writer.element(-a if writer.is_negative(a) else a)
+        zero = ("Where ", factor, " is zero, this says nothing of ", row.name)
         other = "; there another entry may." if telling.step.alternatives else "."
         blocks.append(Paragraph((*zero, other)))
     return blocks

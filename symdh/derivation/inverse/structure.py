@@ -43,14 +43,23 @@ def _rows(rows: Sequence[int]) -> str:
     return ", ".join(map(str, rows[:-1])) + f" and {rows[-1]}"
 
 
-def missing_structure(shape: Structure) -> str:
-    """Say which structure an arm lacks that would give a closed form."""
+def missing_structure(shape: Structure, joints: int) -> str:
+    """Say which structure an arm lacks that would give a closed form.
+
+    Parameters
+    ----------
+    shape : Structure
+    joints : int
+        How many joints are to be found.
+    """
     has = " ".join(str(part) for note in structure_notes(shape) for part in note)
     needed = (
         "A closed form is known for six joints where three neighbouring axes meet in one point, "
         "as in a spherical wrist, or are parallel (Pieper); this arm has no such three at its ends "
         "or between them, and the general arm of six joints leads to a polynomial of degree 16."
     )
-    if shape.wrist or shape.shoulder or any(len(run) > 2 for run in shape.parallel):
+    if joints < 6:
+        needed = "The rules that are known here do not settle every joint from what is given."
+    elif shape.wrist or shape.shoulder or any(len(run) > 2 for run in shape.parallel):
         needed = "The structure that the arm has is not enough for the rules that are known here."
     return f"{has} {needed}".strip()

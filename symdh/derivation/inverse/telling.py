@@ -20,6 +20,8 @@ LONG = 7
 _LONG_ALONE = 16
 #: The sine and the cosine of an angle that have no more to read than this are put in.
 SHORT = 2
+#: Nor does one that leaves too little room for the other.
+_LONG_TOGETHER = 40
 #: Nor one of several, which would push the others to the right.
 _LONG_AMONG_OTHERS = 5
 
@@ -64,7 +66,8 @@ class Telling:
             front, behind = (known, chain) if weight(known) <= weight(chain) else (chain, known)
             if is_zero(front):
                 front, behind = behind, front
-            if weight(front) > longest:
+            together = weight(front) + weight(behind)
+            if weight(front) > longest or (weight(front) > LONG and together > _LONG_TOGETHER):
                 front, behind = write(left - left), write(left - right)
             rows.append(EntryStep(front, (behind,), None))
             self.written.add((front, behind))

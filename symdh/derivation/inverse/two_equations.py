@@ -130,7 +130,7 @@ def _cramer(
         EntrySteps(solved),
         *solution(EntryStep(unknown, (write(atan2(s, c, evaluate=False)),), None)),
     ]
-    if determinant.atoms(cos, sin) or not _never_vanishes(telling):
+    if not _never_vanishes(telling):
         shown = _without_sign(determinant)
         text = write(shown)
         what: Inline = text if weight(text) <= LONG else "the determinant of the two"

@@ -91,7 +91,8 @@ def prepare(robot: Robot, locked: Iterable[Symbol] = (), *, whole_pose: bool) ->
         rows[-1] += lettered.tool
     moving = [k for k, joint in enumerate(lettered.joints) if joint.variable is not None]
     if not moving:
-        raise UnsupportedError(f"{robot.name} has no joint that moves, so there is nothing to find")
+        why = "has every joint locked" if held else "has no joint that moves"
+        raise UnsupportedError(f"{robot.name} {why}, so there is nothing to find")
     _gather(rows, range(moving[0] + 1), moving[0])
     rows[moving[0]], front = _without_lead(rows[moving[0]], lettered)
     hand = (_ZERO, _ZERO, _ZERO)

@@ -126,8 +126,9 @@ def _named(text: str, freedoms: int) -> InverseTask:
     if letters and len(set(words)) == len(words) and all(x in ("x", "y", "z") for x in letters):
         axes = tuple(sorted("xyz".index(x) for x in letters))
         if len(words) < freedoms:
+            numbers = "1 number" if len(words) == 1 else f"{len(words)} numbers"
             raise UnsupportedError(
-                f"the task '{' '.join(words)}' gives {len(words)} numbers for {freedoms} joints: "
+                f"the task '{' '.join(words)}' gives {numbers} for {freedoms} joints: "
                 "lock joints with --lock, or ask for more"
             )
         kind = Kind.PLANAR if phi else Kind.POSITION
