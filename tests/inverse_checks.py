@@ -100,32 +100,44 @@ def missed_by(arm: Arm, found: InverseKinematics, answers: Any, goal: np.ndarray
 # ---------------------------------------------------------------- poses that are hard
 
 
-def hard_poses(table: Path, count: int) -> Mapping[str, np.ndarray]:
-    """Joint values at which equations degenerate, `count` of each kind that the arm has."""
+def hard_poses(table: Path, count: int, *, thorough: bool = False) -> Mapping[str, np.ndarray]:
+    """Joint values at which equations degenerate, `count` of each kind that the arm has.
+
+    Thorough: every joint at zero and near it, and not the third and the fifth alone.
+    """
     arm = arm_of(table)
     rng = np.random.default_rng(9)
     turns = np.array([turning for _, turning in arm.variables])
     n = len(turns)
     quarters = rng.integers(-1, 3, (count, n)) * np.pi / 2
     sets = {"k 90 deg": np.where(turns, quarters, rng.uniform(-0.5, 0.5, (count, n)))}
-    for joint in (2, 4):
+    for joint in range(n) if thorough else (2, 4):
         for small in (0.0, 1e-7):
-            if joint < n and turns[joint]:
+            if joint < n and (turns[joint] or thorough):
                 q = arm.seeded_poses(count, seed=joint)
                 q[:, joint] = small
                 sets[f"joint {joint + 1} at {small:g}"] = q
     if n >= 5 and turns[2] and arm.n == n:
-        sets["straight"] = _straight(arm, arm.seeded_poses(count, seed=31))
+        sets["straight"] = _farthest(arm, arm.seeded_poses(count, seed=31), 2, (1, 4))
+        sets["folded"] = _farthest(arm, arm.seeded_poses(count, seed=32), 2, (1, 4), -1)
+    elif 2 <= n < 5 and turns[n - 1] and turns[1] and arm.n == n:
+        # The whole arm's boundary: the last joint turned until the hand is far from the base.
+        sets["boundary"] = _farthest(arm, arm.seeded_poses(count, seed=31), n - 1, ("base", "tool"))
     return {name: held(table, q) for name, q in sets.items()}
 
 
-def _straight(arm: Arm, q: np.ndarray) -> np.ndarray:
-    """Turn joint 3 until frame 4 is as far from frame 1 as it can be, by golden section."""
+def _farthest(
+    arm: Arm, q: np.ndarray, joint: int, frames: tuple[str | int, str | int], sign: int = 1
+) -> np.ndarray:
+    """Turn a joint until two frames are as far apart as can be, or as near with -1.
+
+    A grid first, then golden section.
+    """
     ratio = (math.sqrt(5) - 1) / 2
 
     def far(angle: np.ndarray) -> np.ndarray:
-        q[:, 2] = angle
-        return np.asarray((pose_of(arm, q, 1, 4)[:, :3, 3] ** 2).sum(axis=-1))
+        q[:, joint] = angle
+        return np.asarray(sign * (pose_of(arm, q, *frames)[:, :3, 3] ** 2).sum(axis=-1))
 
     grid = np.linspace(-np.pi, np.pi, 73)
     best = grid[np.argmax([far(np.full(len(q), angle)) for angle in grid], axis=0)]
@@ -134,7 +146,7 @@ def _straight(arm: Arm, q: np.ndarray) -> np.ndarray:
         left, right = high - ratio * (high - low), low + ratio * (high - low)
         keep = far(left) > far(right)
         low, high = np.where(keep, low, left), np.where(keep, right, high)
-    q[:, 2] = (low + high) / 2
+    q[:, joint] = (low + high) / 2
     return q
 
 

@@ -17,6 +17,7 @@ import pytest
 import yaml
 from conftest import Runner
 from generated import STRICT_C, import_generated
+from inverse_checks import hard_poses
 from inverse_code import Loaded, compile_inverse, load
 from sympy import Float
 
@@ -42,6 +43,8 @@ OPEN = [path for path in TABLES if path not in CLOSED]
 #: Random poses of each table; SYMDH_IK_POSES asks for more.
 POSES = int(os.environ.get("SYMDH_IK_POSES", "40"))
 FEW = max(3, POSES // 100)
+#: Hard poses of each kind; tests/check_singular.py tries more.
+HARD = 10
 
 PLANAR = """
 name: planar
@@ -161,6 +164,53 @@ def test_poses_at_and_beside_a_singularity_have_answers(size: float) -> None:
                     tried += 1
                     good += len(answers) > 0 and arm.missed_by(answers, goal) <= 1e-9
     assert good >= 0.99 * tried
+
+
+@each_closed
+def test_hard_poses_of_every_kind_have_answers(table: Path) -> None:
+    """Joints at and beside zero, elbows straight and folded, all at right angles."""
+    arm = loaded(table)
+    tried = good = 0
+    for q in hard_poses(table, HARD).values():
+        for goal in arm.pose(q):
+            answers, _ = arm.c(goal)
+            assert arm.missed_by(answers, goal) <= 1e-9
+            tried += 1
+            good += len(answers) > 0
+    assert good >= 0.99 * tried
+
+
+def test_a_free_joint_takes_another_value_where_the_seed_has_none_that_reaches(
+    tmp_path: Path,
+) -> None:
+    """Poses at which the seed's value of a free joint, and poses beside them, lead nowhere."""
+    stretched = np.array([[0, 0, 0.3, 0, np.pi, 0, 0], [-np.pi / 2, 0, 0.3, 0, 0, 0, 0]])
+    beside = np.array([[1.59424551, -1.98685208, 0.32810675, -2.30806615, 0.0, -1.63010231]])
+    double = np.array([[-0.23539532, -1.65419333, 1e-7, -2.37934481, 1.97207778, 0.18665702]])
+    for name, lock, poses in (
+        ("kuka_iiwa7", ["theta3"], stretched),
+        ("three_parallel_only", [], beside),
+        ("ikbt_ArmRobo", [], double),
+    ):
+        arm = load(table_named(name), tmp_path, lock)
+        seed = np.where([name_ in lock for name_, _ in arm.arm.variables], 0.3, 0.0)
+        for goal in arm.pose(poses):
+            for answers in (arm.c(goal, seed)[0], arm.python.ik(goal, seed=seed)):
+                assert len(answers)
+                assert arm.missed_by(answers, goal) <= 1e-9
+
+
+def test_generated_code_does_not_read_what_the_task_does_not_give_of_a_turned_base(
+    tmp_path: Path,
+) -> None:
+    """Two links on a wall: worked by hand as on the floor, with z for y."""
+    in_c, in_python = planar(tmp_path, PLANAR + "base: [Rx(90 deg)]\n")
+    pose = np.eye(4)
+    pose[:3, 3] = 0.5, math.nan, 0.3
+    mirrored = 2 * math.atan2(0.3, 0.5)
+    wanted = sorted([(0.0, math.pi / 2), (mirrored, -math.pi / 2)])
+    assert np.allclose(sorted(map(tuple, in_c(pose)[0])), wanted, atol=1e-12)
+    assert np.allclose(sorted(map(tuple, in_python.ik(pose))), wanted, atol=1e-12)
 
 
 def test_python_rescues_what_c_rescues() -> None:

@@ -44,6 +44,7 @@ from symdh.kinematics.inverse import clock
 from symdh.kinematics.inverse.branches import Branches, branches_of
 from symdh.kinematics.inverse.fallback import nominal
 from symdh.kinematics.inverse.inverse import Method, inverse_kinematics
+from symdh.kinematics.inverse.pool import Combination
 from symdh.kinematics.inverse.roots import real_angles
 from symdh.kinematics.inverse.search import closed_form
 from symdh.kinematics.inverse.solution import ClosedForm, Rule, Tried
@@ -284,6 +285,71 @@ def test_base_and_tool_are_part_of_the_arm(name: str) -> None:
             assert missed_by(arm, found, answers, goal) < 1e-9 * reach_of(arm)
         for answer in answers:
             assert answer.within_limits == (abs(answer.q[0]) <= math.pi / 2 + 1e-6)
+
+
+ODD_SLIDES = {
+    "RRP": """
+  - {theta: theta1, d: 0.3, a: 0, alpha: 0}
+  - {theta: theta2, d: 0.1, a: 0.2, alpha: 90 deg}
+  - {theta: 20 deg, d: q3 + 0.1, a: 0.15, alpha: 40 deg}
+""",
+    "RRP, as far as it goes": """
+  - {theta: theta1, d: 0, a: 0, alpha: 0}
+  - {theta: theta2, d: 0, a: -0.32, alpha: -90 deg}
+  - {theta: 0, d: q3, a: 0, alpha: alpha3}
+values: {alpha3: 45 deg}
+""",
+    "PRP": """
+  - {theta: 20 deg, d: q1, a: 0, alpha: 0}
+  - {theta: theta2, d: 0.1, a: 0.2, alpha: 70 deg}
+  - {theta: 10 deg, d: q3, a: 0.15, alpha: 40 deg}
+""",
+}
+
+
+@pytest.mark.parametrize("kind", ODD_SLIDES)
+def test_a_slide_behind_an_odd_twist_drops_out(kind: str) -> None:
+    """In a modified table the twist stands in the slide's own row, so no entry is free of it."""
+    text = (
+        "name: odd\nconvention: modified\nunits: {angle: deg, length: m}\n"
+        f"joints:{ODD_SLIDES[kind]}tool: [Tx(0.1), Tz(0.2)]\n"
+    )
+    robot, arm = symdh.loads(text), read_arm(text)
+    found = inverse_kinematics(robot)
+    assert found.method is Method.CLOSED_FORM
+    assert found.form is not None
+    equations = [used.equation for step in found.form.steps for used in step.equations]
+    used = {equation.combination for equation in equations}
+    used |= {parent.combination for equation in equations for parent in equation.parents}
+    assert Combination.WITHOUT_SLIDE in used
+    solver = found.solver()
+    q = arm.seeded_poses(50, seed=3)
+    for truth, goal in zip(q, pose_of(arm, q), strict=True):
+        answers = solver.solve(goal.tolist())
+        assert min(apart(arm, answer.q, truth) for answer in answers) < 1e-6
+        assert missed_by(arm, found, answers, goal) < 1e-9 * reach_of(arm)
+    steps = render_chapters(inverse_document(found).chapters)
+    assert "so that the slide that stands in both drops out" in " ".join(steps.split())
+
+
+@pytest.mark.parametrize(
+    ("base", "task"), [("Rx(90 deg)", "x z"), ("Tz(0.4), Ry(90 deg)", "y z"), ("Rx(35 deg)", "x y")]
+)
+def test_a_base_that_is_turned_mixes_no_coordinate_that_is_not_given(base: str, task: str) -> None:
+    """A planar arm on a wall is as simple as on the floor; what is not given is never read."""
+    text = (DATA / "tables" / "planar_2r.yaml").read_text() + f"base: [{base}]\n"
+    robot, arm = symdh.loads(text), read_arm(text)
+    found = inverse_kinematics(robot, task)
+    assert found.method is Method.CLOSED_FORM
+    solver = found.solver()
+    others = [k for k in range(3) if "xyz"[k] not in task]
+    q = arm.seeded_poses(20, seed=4)
+    for truth, goal in zip(q, pose_of(arm, q), strict=True):
+        goal[others, 3] = 7.0
+        goal[:3, :3] = np.eye(3)
+        answers = solver.solve(goal.tolist())
+        assert len(answers) == 2
+        assert min(apart(arm, answer.q, truth) for answer in answers) < 1e-6
 
 
 def test_a_quadratic_in_a_slide_has_two_values() -> None:

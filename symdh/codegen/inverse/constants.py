@@ -24,6 +24,8 @@ NUMBERS = MappingProxyType(
         "tolerance": "1e-9",
         "rounding": "1e-13",
         "near": "0.05",
+        # What misses by less than this part after Newton's method may hide an answer.
+        "missed": "1e-3",
         # Two answers closer than this, in radians and parts of the reach, are one.
         "same": "1e-6",
         # How far beside its limit a joint variable counts as within.
@@ -60,6 +62,7 @@ SINGLE_NUMBERS = MappingProxyType(
         "tolerance": "1e-5",
         "rounding": "1e-6",
         "near": "0.05",
+        "missed": "1e-3",
         "same": "1e-3",
         "beside": "1e-5",
         "huge": "1e9",

@@ -55,7 +55,9 @@ def letters_of(form: ClosedForm, lowering: Lowering, known: Mapping[Symbol, Expr
     names = [f"r{r}{c}" if c < 4 else f"p{'xyz'[r - 1]}" for r in (1, 2, 3) for c in (1, 2, 3, 4)]
     goal = tuple(graph.symbol(Dummy(name)) for name in names)
     pose = [list(goal[4 * r : 4 * r + 4]) for r in range(3)]
-    inner = pose if not arm.given.base else _product(graph, _end(arm.given.base, number), pose)
+    inner = pose
+    if arm.given.base and not arm.base_inside:
+        inner = _product(graph, _end(arm.given.base, number), pose)
     if arm.given.tool and form.task.whole_pose:
         inner = _product(graph, inner, _end(arm.given.tool, number))
     front, hand = [[number(part) for part in offset] for offset in (arm.front, arm.hand)]

@@ -123,20 +123,24 @@ def _goal_matrix(form: ClosedForm, position: str) -> Matrix:
 
 
 def _ends(form: ClosedForm, writer: Writer, goal: Node) -> list[Block]:
-    """Say that base and tool are taken off."""
+    """Say that base and tool are taken off, or which links they are part of."""
     robot = form.arm.given
     tool_off = bool(robot.tool) and not form.arm.tool_inside
-    if robot.base and tool_off:
+    base_off = bool(robot.base) and not form.arm.base_inside
+    if base_off and tool_off:
         ends = (
             "The base and the tool of the table are known, and ",
             " is what remains without them.",
         )
     else:
-        end = "base" if robot.base else "tool"
+        end = "base" if base_off else "tool"
         ends = f"The {end} of the table is known, and ", " is what remains without it."
     blocks: list[Block] = []
-    if robot.base or tool_off:
+    if base_off or tool_off:
         blocks.append(Paragraph((ends[0], goal, ends[1])))
+    if form.arm.base_inside:
+        first = writer.style.link_name(1)
+        blocks.append(Paragraph(("The base of the table is part of ", first, ".")))
     if form.arm.tool_inside:
         last = writer.style.link_name(robot.n)
         blocks.append(Paragraph(("The tool of the table is part of ", last, ".")))

@@ -32,13 +32,17 @@ class InverseArm:
     locked : tuple of Symbol
         Joint variables that are held.
     rows : tuple of Word
-        One word for each row, without the translations of `front` and `hand`; the tool stands
-        at the end of the last one where `tool_inside`.
+        One word for each row, without the translations of `front` and `hand`; the base stands
+        in front of the first one where `base_inside`, the tool at the end of the last one where
+        `tool_inside`.
     front, hand : three Expr
         Known translations at both ends of the chain: the goal is
         ``w = p - front - R hand``.
     tool_inside : bool
         Whether the tool is part of the chain: so where the position alone is asked for.
+    base_inside : bool
+        Whether the base is part of the chain: so where some coordinates of the position are not
+        given, for a base that is turned would mix them with those that are.
     """
 
     given: Robot
@@ -49,6 +53,7 @@ class InverseArm:
     front: Offset
     hand: Offset
     tool_inside: bool
+    base_inside: bool
 
     @property
     def moving(self) -> tuple[int, ...]:
@@ -67,7 +72,9 @@ class InverseArm:
         return any(not part.is_zero for part in (*self.front, *self.hand))
 
 
-def prepare(robot: Robot, locked: Iterable[Symbol] = (), *, whole_pose: bool) -> InverseArm:
+def prepare(
+    robot: Robot, locked: Iterable[Symbol] = (), *, whole_pose: bool, whole_position: bool
+) -> InverseArm:
     """Return a robot as the equations see it.
 
     Parameters
@@ -77,6 +84,8 @@ def prepare(robot: Robot, locked: Iterable[Symbol] = (), *, whole_pose: bool) ->
         Joint variables to hold.
     whole_pose : bool
         Whether the goal is a whole pose: then the offset of the hand is known as well.
+    whole_position : bool
+        Whether all coordinates of the position are given, or none.
 
     Raises
     ------
@@ -85,8 +94,11 @@ def prepare(robot: Robot, locked: Iterable[Symbol] = (), *, whole_pose: bool) ->
     """
     held = tuple(locked)
     inside = bool(robot.tool) and not whole_pose
-    lettered, meanings = _lettered(_fixed(robot, held))
+    base_inside = bool(robot.base) and not whole_position
+    lettered, meanings = _lettered(_fixed(robot, held), base=base_inside, tool=inside)
     rows = [link_word(lettered, i) for i in range(1, robot.n + 1)]
+    if base_inside:
+        rows[0] = lettered.base + rows[0]
     if inside:
         rows[-1] += lettered.tool
     moving = [k for k, joint in enumerate(lettered.joints) if joint.variable is not None]
@@ -102,7 +114,8 @@ def prepare(robot: Robot, locked: Iterable[Symbol] = (), *, whole_pose: bool) ->
         turned, offset = _without_lead(_reversed(rows[last]), lettered)
         rows[last] = _reversed(turned)
         hand = (-offset[0], -offset[1], -offset[2])
-    return InverseArm(robot, lettered, meanings, held, tuple(rows), front, hand, inside)
+    ends = inside, base_inside
+    return InverseArm(robot, lettered, meanings, held, tuple(rows), front, hand, *ends)
 
 
 def _gather(rows: list[Word], places: range, into: int) -> None:
@@ -127,25 +140,24 @@ def _fixed(robot: Robot, locked: tuple[Symbol, ...]) -> Robot:
     return replace(robot, joints=joints)
 
 
-def _lettered(robot: Robot) -> tuple[Robot, dict[Symbol, Expr]]:
-    """Put a letter for every length that is a number or a formula, and nothing for zeros."""
+def _lettered(robot: Robot, *, base: bool, tool: bool) -> tuple[Robot, dict[Symbol, Expr]]:
+    """Put a letter for every length that is a number or a formula, and nothing for zeros.
+
+    Base and tool get letters where they are part of the chain.
+    """
     letters = _Letters(robot)
     joints = tuple(
         replace(joint, a=letters.length(joint.a, f"a{i}"), d=letters.offset(joint, f"d{i}"))
         for i, joint in enumerate(_without_zeros(robot), start=1)
     )
-    tool = tuple(
-        replace(motion, amount=letters.length(motion.amount, f"l{k}"))
-        if motion.kind is MotionKind.TRANSLATION
-        else motion
-        for k, motion in enumerate(robot.tool, start=1)
-    )
+    before = letters.of_end(robot.base, "b") if base else robot.base
+    after = letters.of_end(robot.tool, "l") if tool else robot.tool
     known = dict(robot.values)
     for letter, meaning in letters.meanings.items():
         value = meaning.xreplace(known)
         if not value.free_symbols:
             known[letter] = value
-    return replace(robot, joints=joints, tool=tool, values=known), letters.meanings
+    return replace(robot, joints=joints, base=before, tool=after, values=known), letters.meanings
 
 
 def _without_zeros(robot: Robot) -> Iterable[Joint]:
@@ -181,6 +193,15 @@ class _Letters:
             return self.length(joint.d, name)
         constant = joint.d.xreplace({joint.variable: _ZERO})
         return joint.d - constant + self.length(constant, name)
+
+    def of_end(self, word: Word, stem: str) -> Word:
+        """Return the base or the tool with letters for its lengths."""
+        return tuple(
+            replace(motion, amount=self.length(motion.amount, f"{stem}{k}"))
+            if motion.kind is MotionKind.TRANSLATION
+            else motion
+            for k, motion in enumerate(word, start=1)
+        )
 
     def _letter(self, meaning: Expr, name: str) -> Symbol:
         while name in self._used:

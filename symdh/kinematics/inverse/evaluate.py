@@ -101,6 +101,8 @@ class Evaluator:
         self._places = {variable: k for k, variable in enumerate(given.variables)}
         known = {**given.values, **values}
         self._before, self._after = _end(given.base, known), _end(given.tool, known)
+        if solution.arm.base_inside:
+            self._before = None
         if not solution.task.whole_pose:
             self._after = None
         self.hold(held)
@@ -270,7 +272,10 @@ class Evaluator:
             laurent(element, step.unknown, term, 0.5, 1j) for element in step.coefficients
         )
         scales = tuple(self._value(scale, trial) for scale in step.scales)
-        return real_angles(eliminated(parts, scales) if len(parts) == 6 else parts[0])
+        found = real_angles(eliminated(parts, scales) if len(parts) == 6 else parts[0])
+        # Real roots come in pairs: one that has no partner, or none at all, may hide a double one.
+        self.doubtful |= not found or len(found) % 2 == 1
+        return found
 
     def _seeded(self, unknown: int, seed: Sequence[float]) -> float:
         """Return the value of a free unknown: what the seed says, a sum from its parts."""

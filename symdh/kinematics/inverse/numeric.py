@@ -102,17 +102,24 @@ class Solver:
         starting points, if the equations were near to degenerate at all.
         """
         judge, drawn = self.judge, random.Random(1)
+        self._improve(answers, goal, goal, seed)
         for size in _NEAR_BY:
-            for _ in range(2):
-                near = _shaken(goal, size, judge.chain.reach, drawn)
-                for proposal in self._evaluator.proposals(near, seed):
-                    if judge.error(goal, proposal.q) < _WORTH_IMPROVING * judge.chain.reach:
-                        judge.accept(answers, goal, proposal.q, proposal.branches, (), _MANY, 1e-9)
-            if answers:
-                return
-        for _ in range(_STARTS if doubtful else 0):
+            direction = [drawn.uniform(-1, 1) for _ in range(6)]
+            # Beyond a boundary one of two opposite directions comes back within reach.
+            for by in (size, -size) if not answers else ():
+                self._improve(answers, goal, _shaken(goal, by, judge.chain.reach, direction), seed)
+        for _ in range(_STARTS if doubtful and not answers else 0):
             if judge.accept(answers, goal, judge.random_values(drawn), (), (), 80, 1e-2):
                 return
+
+    def _improve(
+        self, answers: list[Answer], goal: Goal, near: Goal, seed: Sequence[float]
+    ) -> None:
+        """Start from the proposals for a goal near by, or for the same, with many steps."""
+        judge = self.judge
+        for proposal in self._evaluator.proposals(near, seed):
+            if judge.error(goal, proposal.q) < _WORTH_IMPROVING * judge.chain.reach:
+                judge.accept(answers, goal, proposal.q, proposal.branches, (), _MANY, 1e-9)
 
 
 def held_values(
@@ -122,14 +129,14 @@ def held_values(
     return {v: float(values.get(v, robot.values.get(v, 0))) for v in locked}
 
 
-def _shaken(goal: Goal, size: float, reach: float, drawn: random.Random) -> Goal:
-    """Return a pose near another one."""
-    x, y, z = (drawn.uniform(-size, size) for _ in range(3))
+def _shaken(goal: Goal, size: float, reach: float, direction: Sequence[float]) -> Goal:
+    """Return a pose near another one, turned and moved in a direction."""
+    x, y, z = (size * part for part in direction[:3])
     turn = ((1.0, -z, y), (z, 1.0, -x), (-y, x, 1.0))
     return tuple(
         tuple(
             sum(turn[r][k] * goal[k][c] for k in range(3))
-            + (reach * drawn.uniform(-size, size) if c == 3 else 0.0)
+            + (reach * size * direction[3 + r] if c == 3 else 0.0)
             for c in range(4)
         )
         for r in range(3)

@@ -58,6 +58,7 @@ class Combination(Enum):
     RATIO = "one is divided by the other, and their common factor drops out"
     PROJECTION = "each is multiplied by the known sine or cosine in it, and both are added"
     DIFFERENCE = "they are combined so that the angle that stands in both drops out"
+    WITHOUT_SLIDE = "they are combined so that the slide that stands in both drops out"
 
 
 @dataclass(frozen=True, slots=True)

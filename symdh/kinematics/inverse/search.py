@@ -22,6 +22,7 @@ from symdh.kinematics.inverse.rules.single import single_candidates
 from symdh.kinematics.inverse.rules.slide import slide_candidates
 from symdh.kinematics.inverse.rules.squares import add_squares
 from symdh.kinematics.inverse.rules.sums import take_sums
+from symdh.kinematics.inverse.rules.without_slide import add_without_slides
 from symdh.kinematics.inverse.solution import ClosedForm, Step, Tried
 from symdh.kinematics.inverse.state import State, unknowns_in
 from symdh.kinematics.inverse.structure import structure
@@ -68,7 +69,8 @@ def closed_form(
     if freedoms > 6:
         raise UnsupportedError(f"{robot.name} has {freedoms} joints that move; six can be solved")
     clock = Clock(seconds)
-    arm = prepare(robot, held, whole_pose=task.whole_pose)
+    whole = task.whole_position
+    arm = prepare(robot, held, whole_pose=task.whole_pose, whole_position=whole)
     goals: set[int] = set()
     state: State | None = None
     try:
@@ -112,7 +114,8 @@ def _run(state: State, goals: set[int], clock: Clock) -> None:
         else:
             before = len(state.pool.equations)
             steps = eliminate(state)
-            if not steps and before == len(state.pool.equations):
+            stuck = not steps and before == len(state.pool.equations)
+            if stuck and not add_without_slides(state):
                 return
             for step in steps:
                 state.take(step)

@@ -52,6 +52,11 @@ class InverseTask:
         return self.kind in (Kind.POSE, Kind.PLANAR)
 
     @property
+    def whole_position(self) -> bool:
+        """Whether all coordinates of the position are given, or none."""
+        return len(self.axes) in (0, 3)
+
+    @property
     def with_orientation(self) -> bool:
         """Whether the orientation is given."""
         return self.kind is not Kind.POSITION

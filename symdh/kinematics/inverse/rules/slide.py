@@ -27,7 +27,7 @@ def slide_candidates(state: State) -> Iterator[Candidate]:
         (x,) = open_now
         if state.ring.is_angle(x):
             continue
-        parts = _powers(state, view.element, x)
+        parts = powers_of_slide(state, view.element, x)
         if parts is None:
             continue
         c, b, a = parts
@@ -51,7 +51,7 @@ def slide_candidates(state: State) -> Iterator[Candidate]:
         yield Candidate(cost, Step(x, Rule.SLIDE, (view.used,), coefficients, others))
 
 
-def _powers(state: State, element: Element, x: int) -> list[Element] | None:
+def powers_of_slide(state: State, element: Element, x: int) -> list[Element] | None:
     """Return the coefficients of 1, q and q^2; None where there are higher powers."""
     k = state.ring.slide_gen(x)
     parts: list[dict[tuple[int, ...], object]] = [{}, {}, {}]
