@@ -69,8 +69,8 @@ def _listing() -> str:
     "locks",
     metavar="JOINT",
     multiple=True,
-    help="C, Python: a joint that the inverse kinematics holds at what the seed says, for arms "
-    "with more joints than a pose needs. Repeatable.",
+    help="A joint that the inverse kinematics holds at what the seed says, for arms with more "
+    "joints than a pose needs. Repeatable.",
 )
 @options.no_ik_option
 @click.option(
