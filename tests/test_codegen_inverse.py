@@ -556,22 +556,29 @@ DRIVER = """
 #include "{stem}.h"
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
+
+typedef {real} real;
 
 int main(void)
 {{
-    static const double hard[] = {{0.0, 1e-7, 1.5707963267948966, 3.141592653589793, 1e-300, 0.7}};
-    double q[{n}], T[16], answers[{stem}_IK_MAX][{n}];
+    static const real hard[] = {{
+        0, (real)1e-7, (real)1.5707963267948966, (real)3.141592653589793, (real)1e-300, (real)0.7}};
+    static const real wild[] = {{(real)NAN, (real)HUGE_VAL, (real)-HUGE_VAL, (real){huge}}};
+    real q[{n}], T[16], J[6 * {n}], answers[{stem}_IK_MAX][{n}];
     unsigned masks[{stem}_IK_MAX];
     int total = 0;
     for (int k = 0; k < 400; ++k) {{
         for (int j = 0; j < {n}; ++j) {{
-            q[j] = hard[(k * (j + 3) + k / 7 + j) % 6] * (k % 2 ? 1.0 : -1.0);
+            q[j] = hard[(k * (j + 3) + k / 7 + j) % 6] * (real)(k % 2 ? 1 : -1);
         }}
         {stem}_fk(q, T);
         total += {stem}_ik(T, k % 3 ? q : 0, answers, k % 5 ? masks : 0);
-        T[k % 12] = k % 4 == 0 ? NAN : k % 4 == 1 ? HUGE_VAL : k % 4 == 2 ? 1e300 : -T[k % 12];
+        T[k % 12] = k % 5 == 4 ? -T[k % 12] : wild[k % 5 % 4];
         total += {stem}_ik(T, 0, answers, masks);
+        q[k % {n}] = wild[k % 4];
+        total += {stem}_ik(T, q, answers, masks);
+        {stem}_fk_jacobian(q, T, J);
+        total += {stem}_ik(T, q, answers, masks);
     }}
     printf("%d", total);
     return 0;
@@ -579,13 +586,18 @@ int main(void)
 """
 
 
-@pytest.mark.parametrize("name", ["ur5", "ikbt_ArmRobo", "stanford_textbook"])
-def test_sanitizers_have_nothing_to_say(name: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("precision", "huge"), [("double", "1e300"), ("float", "1e30")])
+@pytest.mark.parametrize("name", ["ur5", "ikbt_ArmRobo", "stanford_textbook", "pieper_generic"])
+def test_sanitizers_have_nothing_to_say(
+    name: str, precision: str, huge: str, tmp_path: Path
+) -> None:
+    """Singular poses, and NaN, infinity and huge numbers in pose, seed and joint values."""
     robot = symdh.load(table_named(name))
-    header, source = generate(robot, "c")
+    header, source = generate(robot, "c", precision=precision)
     for file in (header, source):
         (tmp_path / file.name).write_text(file.text, encoding="utf-8")
-    driver = DRIVER.format(stem=source.name.removesuffix(".c"), n=len(robot.variables))
+    stem, n = source.name.removesuffix(".c"), len(robot.variables)
+    driver = DRIVER.format(stem=stem, n=n, real=precision, huge=huge)
     (tmp_path / "driver.c").write_text(driver, encoding="utf-8")
     sanitized = "-fsanitize=address,undefined,float-divide-by-zero"
     built = subprocess.run(

@@ -12,11 +12,12 @@ from conftest import Runner
 from sympy import Integer
 from test_codegen import FORMULAS, OBLIQUE, PLANAR, Q1, SCARA, STANDARD, STILL, revolute
 
+import symdh
 from symdh.codegen import generate
 from symdh.codegen.verification import CheckProgram, random_poses, verify
 from symdh.errors import LimitError, OutputError
 from symdh.robot import Robot
-from tools import require_tool
+from tools import find_tool, require_tool
 
 ROOT = Path(__file__).parent.parent
 SCARA_TABLE = ROOT / "examples" / "scara.yaml"
@@ -53,6 +54,66 @@ def test_wrong_code_is_found_out(target: str) -> None:
     found = verify(ONE, target, wrong, count=5)
     assert not found.is_right
     assert 100 < found.error < 500
+
+
+@pytest.mark.parametrize("target", ["python", "c", "cpp", "rust", "python-ext"])
+@pytest.mark.parametrize("robot", [PLANAR, SCARA], ids=lambda r: r.name)
+def test_right_answers_are_right(robot: Robot, target: str) -> None:
+    find_tool("rustc") if target == "rust" else require_tool("g++")
+    found = verify(robot, target, generate(robot, target), count=20).inverse
+    assert found is not None
+    assert found.is_right
+    assert (found.poses, found.found, found.answers) == (20, 20, 40)
+
+
+def test_answers_of_floats_are_judged_as_such() -> None:
+    require_tool("gcc")
+    files = generate(SCARA, "c", precision="float")
+    found = verify(SCARA, "c", files, count=20, is_single=True).inverse
+    assert found is not None
+    assert found.is_right
+    assert 1e-8 < found.error < found.tolerance == 2e-5
+
+
+def test_a_locked_joint_is_held_and_what_is_left_out_is_not_asked_for() -> None:
+    iiwa = symdh.load(ROOT / "tests" / "data" / "tables" / "kuka_iiwa7.yaml")
+    locked = (iiwa.variables[2],)
+    found = verify(iiwa, "python", generate(iiwa, "python", lock=locked), count=5, lock=locked)
+    assert found.inverse is not None
+    assert found.inverse.found == 5
+    left_out = verify(SCARA, "python", generate(SCARA, "python", ik=False), count=5, ik=False)
+    assert left_out.is_right
+    assert left_out.inverse is None
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        # A last step after the judge, 1e-8 off, and a branch that is never tried.
+        ("return x - (2.0 * planar_ik_PI * turns);", "return (x + 1e-8) - (6.283185 * turns);"),
+        ("x->count = 2;", "x->count = 1;"),
+    ],
+)
+def test_wrong_answers_are_found_out(right: str, wrong: str) -> None:
+    require_tool("gcc")
+    arm = replace(PLANAR, name="planar")
+    files = generate(arm, "c")
+    changed = [replace(file, text=file.text.replace(right, wrong)) for file in files]
+    assert changed != list(files)
+    found = verify(arm, "c", changed, count=20)
+    assert found.error <= found.tolerance
+    assert found.inverse is not None
+    assert not found.inverse.is_right
+    assert not found.is_right
+
+
+def test_answers_that_are_not_printed_are_missed(monkeypatch: pytest.MonkeyPatch) -> None:
+    from symdh.codegen.targets import python
+
+    given = CheckProgram((), ((sys.executable, "-c", "print('1 ' * 16)"),), answers=True)
+    monkeypatch.setattr(python, "check_program", lambda *arguments: given)
+    with pytest.raises(OutputError, match="did not print its answers"):
+        verify(ONE, "python", (), count=1)
 
 
 def test_nan_is_not_right(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -104,8 +165,9 @@ def test_the_command_says_how_exact_the_code_is(run_symdh: Runner) -> None:
     ran = run_symdh("code", SCARA_TABLE, "--target", "c", "--target", "python", "--verify")
     assert ran.returncode == 0
     lines = ran.stdout.splitlines()
-    assert [line.split(":")[0] for line in lines] == ["python", "c"]
-    assert all("on 100 poses" in line and line.endswith("right") for line in lines)
+    assert [line.split(":")[0] for line in lines] == ["python", "python", "c", "c"]
+    assert all("100 poses" in line and line.endswith(": right") for line in lines)
+    assert all("ik found the joints of 100 of 100 poses again; 200" in line for line in lines[1::2])
 
 
 def test_the_command_says_which_compiler_is_missing(tmp_path: Path, run_symdh: Runner) -> None:

@@ -1,8 +1,5 @@
 """Generated code against the exact pose: it is compiled or run on random joint values.
 
-The exact pose shares nothing with the code: it is a plain product of the table's elementary 4x4
-matrices at 50 digits.
-
 A target takes part when its module has
 ``check_program(robot, files, poses) -> CheckProgram``.
 """
@@ -15,22 +12,24 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
-from typing import Any
 
-import mpmath
-from sympy import Expr, Rational, Symbol
+from sympy import Symbol
 
+from symdh.codegen.exact import ExactChain
+from symdh.codegen.inverse.judging import InverseVerification, judged
+from symdh.codegen.inverse.lowering import inverse_program
+from symdh.codegen.inverse.program import Program
 from symdh.codegen.precision import DOUBLE, FLOAT, single
-from symdh.codegen.targets import GeneratedFile
+from symdh.codegen.targets import TARGETS, GeneratedFile
 from symdh.errors import LimitError, OutputError, UnsupportedError
-from symdh.kinematics.chain import chain_word
-from symdh.robot import JointType, MotionKind, Robot
+from symdh.robot import JointType, Robot
 
-_DIGITS = 50
 _TIME_LIMIT = 120.0
+#: What a line with answers begins with.
+_ANSWERS = "ik"
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,10 +42,13 @@ class Poses:
         A row of joint variables for each pose.
     parameters : mapping of Symbol to float
         A number for each parameter that the table leaves open.
+    inverse : Program or None
+        The inverse kinematics that the code has, if it has any.
     """
 
     joints: tuple[tuple[float, ...], ...]
     parameters: Mapping[Symbol, float]
+    inverse: Program | None = None
 
     @property
     def rows(self) -> list[list[str]]:
@@ -64,10 +66,15 @@ class CheckProgram:
     commands : tuple of tuple of str
         Run one after the other. The last prints a line for each pose: the 16 entries, row by row,
         between spaces.
+    answers : bool
+        Whether each of these lines is followed by one with the word ``ik`` and the joint values of
+        all answers to that pose in a row, those that made it being the seed. A target that has
+        inverse kinematics does so where `Poses.inverse` is given.
     """
 
     files: tuple[GeneratedFile, ...]
     commands: tuple[tuple[str, ...], ...]
+    answers: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,16 +89,19 @@ class Verification:
         Largest error of any entry, in eps of reach: units of eps times the sum of all lengths.
     tolerance : float
         What the sums and products of a chain of so many joints excuse, in the same unit.
+    inverse : InverseVerification or None
+        What came out of the inverse kinematics.
     """
 
     poses: int
     error: float
     tolerance: float
+    inverse: InverseVerification | None = None
 
     @property
     def is_right(self) -> bool:
         """Whether the error stays within the tolerance; NaN does not."""
-        return self.error <= self.tolerance
+        return self.error <= self.tolerance and (self.inverse is None or self.inverse.is_right)
 
 
 def verify(
@@ -101,6 +111,8 @@ def verify(
     *,
     count: int = 100,
     is_single: bool = False,
+    lock: tuple[Symbol, ...] = (),
+    ik: bool = True,
 ) -> Verification:
     """Run generated code on random poses and compare with the exact result.
 
@@ -114,6 +126,8 @@ def verify(
         Number of poses; the same ones each time.
     is_single : bool
         Whether the code computes in single precision.
+    lock, ik
+        As they were given to the target.
 
     Raises
     ------
@@ -127,18 +141,30 @@ def verify(
     module = import_module(f"symdh.codegen.targets.{target.replace('-', '_')}")
     if not hasattr(module, "check_program"):
         raise UnsupportedError(f"symdh cannot run {target} code to verify it")
-    poses = random_poses(robot, count, is_single=is_single)
+    plan = _inverse(robot, target, lock) if ik else None
+    poses = replace(random_poses(robot, count, is_single=is_single), inverse=plan)
     program: CheckProgram = module.check_program(robot, files, poses)
-    found = _run(program, files, len(poses.joints))
+    found, answers = _run(program, files, poses)
     epsilon = (FLOAT if is_single else DOUBLE).epsilon
-    exact = _ExactChain(robot, poses.parameters)
+    exact = ExactChain(robot, poses.parameters)
     errors = [
         exact.error(joints, pose) / epsilon
         for joints, pose in zip(poses.joints, found, strict=True)
     ]
     # max() alone would pass over a NaN.
     worst = math.nan if any(map(math.isnan, errors)) else max(errors)
-    return Verification(len(errors), worst, 4.0 + 2.0 * robot.n)
+    inverse = None
+    if plan is not None and program.answers:
+        inverse = judged(plan, exact, poses.joints, answers, is_single=is_single)
+    return Verification(len(errors), worst, 4.0 + 2.0 * robot.n, inverse)
+
+
+def _inverse(robot: Robot, target: str, lock: tuple[Symbol, ...]) -> Program | None:
+    """Return the inverse kinematics that the code of a target has."""
+    if not any(one.name == target and "ik" in one.options for one in TARGETS):
+        return None
+    plan = inverse_program(robot, None, lock)
+    return plan if isinstance(plan, Program) else None
 
 
 def find_program(*names: str) -> str:
@@ -173,7 +199,10 @@ def random_poses(robot: Robot, count: int, *, is_single: bool = False) -> Poses:
     return Poses(joints, {p: 0.25 + 0.125 * k for k, p in enumerate(open_ones)})
 
 
-def _run(program: CheckProgram, files: Sequence[GeneratedFile], count: int) -> list[list[float]]:
+def _run(
+    program: CheckProgram, files: Sequence[GeneratedFile], poses: Poses
+) -> tuple[list[list[float]], list[list[float]]]:
+    """Return the poses that the code printed, and the answers to each in a row."""
     with tempfile.TemporaryDirectory(prefix="symdh-") as name:
         folder = Path(name)
         for file in (*files, *program.files):
@@ -183,10 +212,19 @@ def _run(program: CheckProgram, files: Sequence[GeneratedFile], count: int) -> l
         printed = ""
         for command in program.commands:
             printed = _output(command, folder)
-    rows = [[float(word) for word in line.split()] for line in printed.splitlines() if line.strip()]
+    lines = [line.split() for line in printed.splitlines() if line.strip()]
+    rows = [_numbers(words) for words in lines if words[0] != _ANSWERS]
+    answers = [_numbers(words[1:]) for words in lines if words[0] == _ANSWERS]
+    count, n = len(poses.joints), len(poses.joints[0])
     if len(rows) != count or any(len(row) != 16 for row in rows):
         raise OutputError("cannot verify: the code did not print its poses")
-    return rows
+    if len(answers) != count * program.answers or any(len(row) % n for row in answers):
+        raise OutputError("cannot verify: the code did not print its answers")
+    return rows, answers
+
+
+def _numbers(words: Sequence[str]) -> list[float]:
+    return [float(word) for word in words]
 
 
 def _output(command: Sequence[str], folder: Path) -> str:
@@ -203,65 +241,3 @@ def _output(command: Sequence[str], folder: Path) -> str:
         reason = done.stderr.strip().splitlines()[:5]
         raise OutputError("\n".join([f"cannot verify: {program} failed", *reason]))
     return done.stdout
-
-
-class _ExactChain:
-    """The pose of a robot at 50 digits, motion by motion."""
-
-    def __init__(self, robot: Robot, parameters: Mapping[Symbol, float]) -> None:
-        values: dict[Symbol, Expr] = {
-            symbol: _exact(number) for symbol, number in parameters.items()
-        }
-        values |= {p: robot.values[p] for p in robot.parameters if p in robot.values}
-        self._variables = robot.variables
-        self._mp = mpmath.mp.clone()
-        self._mp.dps = _DIGITS
-        self._motions = [
-            (motion.kind, int(motion.axis), self._line(motion.amount.xreplace(values)))
-            for motion in chain_word(robot, "base", "tool")
-        ]
-
-    def error(self, joints: Sequence[float], pose: Sequence[float]) -> float:
-        """Return the largest error of an entry as a part of the reach; NaN of a NaN."""
-        mp = self._mp
-        at = {v: mp.mpf(x) for v, x in zip(self._variables, joints, strict=True)}
-        exact, reach = mp.eye(4), mp.mpf(0)
-        for kind, axis, (constant, slopes) in self._motions:
-            amount = constant + sum(slope * at[variable] for variable, slope in slopes)
-            if kind is MotionKind.TRANSLATION:
-                reach += abs(amount)
-            exact = exact * self._elementary(kind, axis, amount)
-        if not all(map(math.isfinite, pose)):
-            return float("nan")
-        largest = max(abs(exact[k // 4, k % 4] - mp.mpf(x)) for k, x in enumerate(pose))
-        return float(largest / max(1, reach))
-
-    def _line(self, amount: Expr) -> tuple[Any, tuple[tuple[Symbol, Any], ...]]:
-        """Write an amount as a constant and a slope for each variable."""
-        slopes = []
-        for variable in self._variables:
-            if amount.has(variable):
-                slopes.append((variable, self._number(amount.diff(variable))))
-                amount = amount.xreplace({variable: _exact(0.0)})
-        return self._number(amount), tuple(slopes)
-
-    def _number(self, value: Expr) -> Any:
-        number = value.evalf(_DIGITS)
-        if not number.is_Float and not number.is_Integer:
-            raise UnsupportedError(f"{value} has no value to verify with")
-        return self._mp.mpf(str(number))
-
-    def _elementary(self, kind: MotionKind, axis: int, amount: Any) -> Any:
-        matrix = self._mp.eye(4)
-        if kind is MotionKind.TRANSLATION:
-            matrix[axis, 3] = amount
-            return matrix
-        i, j = (axis + 1) % 3, (axis + 2) % 3
-        cosine, sine = self._mp.cos(amount), self._mp.sin(amount)
-        matrix[i, i], matrix[i, j], matrix[j, i], matrix[j, j] = cosine, -sine, sine, cosine
-        return matrix
-
-
-def _exact(number: float) -> Expr:
-    numerator, denominator = number.as_integer_ratio()
-    return Rational(numerator, denominator)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -68,15 +69,15 @@ def _listing() -> str:
     "locks",
     metavar="JOINT",
     multiple=True,
-    help="C, Python: a joint that the inverse kinematics holds at what the seed says, for arms "
-    "with more joints than a pose needs. Repeatable.",
+    help="A joint that the inverse kinematics holds at what the seed says, for arms with more "
+    "joints than a pose needs. Repeatable.",
 )
 @options.no_ik_option
 @click.option(
     "--verify",
     is_flag=True,
     help="Also compile or run what was written, on 100 random poses, and print the largest error "
-    "against the exact result at 50 digits.",
+    "against the exact result at 50 digits, of the inverse kinematics too.",
 )
 @options.folder_option("the current one; for python-ext one of its own, NAME_ext")
 @options.templates_option
@@ -127,24 +128,39 @@ def code(
     for place, generated in folders.items():
         console.note(files.listing(write_files(place, generated, force=force)))
     if verify:
-        right = [_verify(robot, name, made, precision) for name, made in written.items()]
+        right = [_verify(robot, name, made, chosen) for name, made in written.items()]
         if not all(right):
             raise click.exceptions.Exit(_WRONG)
 
 
 def _verify(
-    robot: Robot, target: str, generated: tuple[GeneratedFile, ...], precision: str | None
+    robot: Robot,
+    target: str,
+    generated: tuple[GeneratedFile, ...],
+    chosen: Mapping[str, Any],
 ) -> bool:
     """Run one target's code, print how exact it is, and say whether it is right."""
     from symdh.codegen.verification import verify
 
-    is_single = target == "c" and precision == "float"
-    result = verify(robot, target, generated, is_single=is_single)
+    is_single = target == "c" and chosen.get("precision") == "float"
+    of_ik = {option: chosen[option] for option in ("lock", "ik") if option in chosen}
+    result = verify(robot, target, generated, is_single=is_single, **of_ik)
     console.print_result(
         f"{target}: largest error on {result.poses} poses {result.error:.2f} eps of reach, "
-        f"at most {result.tolerance:.0f}: {'right' if result.is_right else 'WRONG'}"
+        f"at most {result.tolerance:.0f}: {_verdict(result.error <= result.tolerance)}"
     )
+    if result.inverse is not None:
+        inverse = result.inverse
+        console.print_result(
+            f"{target}: ik found the joints of {inverse.found} of {inverse.poses} poses again; "
+            f"{inverse.answers} answers, largest error {inverse.error:.1e} of the reach, "
+            f"at most {inverse.tolerance:.1e}: {_verdict(inverse.is_right)}"
+        )
     return result.is_right
+
+
+def _verdict(is_right: bool) -> str:
+    return "right" if is_right else "WRONG"
 
 
 def _refuse_if_of_no_use(option: str, targets: tuple[str, ...]) -> None:

@@ -149,12 +149,14 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
         real=kind.name,
         rows=[[kind.number(x) for x in row] for row in poses.joints],
         parameters=[kind.number(x) for x in poses.parameters.values()],
+        inverse=poses.inverse is not None,
     )
     compiler = find_program("cc", "gcc", "clang")
     sources = ("check.c", f"{stem}.c")
     return CheckProgram(
         (GeneratedFile("check.c", main),),
         ((compiler, "-O2", *sources, "-o", "check", "-lm"), ("./check",)),
+        answers=poses.inverse is not None,
     )
 
 

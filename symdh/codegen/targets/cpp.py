@@ -103,6 +103,8 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
         n=len(robot.variables),
         rows=poses.rows,
         parameters=required_values(program, poses.parameters),
+        has_parameters=bool(program.parameters),
+        inverse=poses.inverse is not None,
     )
     compiler = find_program("c++", "g++", "clang++")
     # Where Debian, Homebrew and MacPorts put Eigen.
@@ -111,4 +113,5 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
     return CheckProgram(
         (GeneratedFile("check.cpp", main),),
         ((compiler, "-std=c++17", "-O1", *includes, "check.cpp", "-o", "check"), ("./check",)),
+        answers=poses.inverse is not None,
     )

@@ -106,7 +106,9 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
         stem=files[0].name.removesuffix(".py"),
         rows=poses.rows,
         parameters=list(zip(names, map(repr, poses.parameters.values()), strict=True)),
+        inverse=poses.inverse is not None,
     )
     # Not called check.py: the table may be.
     driver = GeneratedFile("symdh_check_poses.py", text)
-    return CheckProgram((driver,), ((sys.executable, driver.name),))
+    command = (sys.executable, driver.name)
+    return CheckProgram((driver,), (command,), answers=poses.inverse is not None)

@@ -122,7 +122,9 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
         stem=f"{file_stem(robot.name)}_ext",
         rows=poses.rows,
         parameters=list(zip(names, map(repr, poses.parameters.values()), strict=True)),
+        inverse=poses.inverse is not None,
     )
     driver = GeneratedFile("symdh_check_poses.py", main)
     build = (sys.executable, "setup.py", "--quiet", "build_ext", "--inplace")
-    return CheckProgram((driver,), (build, (sys.executable, driver.name)))
+    commands = (build, (sys.executable, driver.name))
+    return CheckProgram((driver,), commands, answers=poses.inverse is not None)

@@ -15,7 +15,7 @@ from sympy import Symbol
 from symdh.codegen.calls import CALLS
 from symdh.codegen.functions import Language, Program, write_program
 from symdh.codegen.graph import Op
-from symdh.codegen.inverse.compiled import Section
+from symdh.codegen.inverse.program import Program as Plan
 from symdh.codegen.inverse.rust import functions_needed, rust_context, rust_section
 from symdh.codegen.names import file_stem, words
 from symdh.codegen.targets import GeneratedFile
@@ -100,7 +100,7 @@ def generate(
         joint_lines=program.facts.joint_table("q[{}]"),
         passed={function.name: _passed(function.calls) for function in program.functions},
         ik=inverse,
-        passed_ik=_passed_to_ik(program, inverse),
+        passed_ik=_passed_to_ik(program, inverse.plan),
         **rust_context(),
     )
     return (GeneratedFile(f"{module}.rs", text),)
@@ -111,11 +111,11 @@ def _passed(calls: Collection[Op]) -> list[_Passed]:
     return list(dict.fromkeys(_PASSED[op] for op in _PASSED if op in calls))
 
 
-def _passed_to_ik(program: Program, inverse: Section) -> list[_Passed]:
+def _passed_to_ik(program: Program, plan: Plan | None) -> list[_Passed]:
     """Return what a caller of ``ik`` passes; it calls the other functions too."""
-    if inverse.plan is None:
+    if plan is None:
         return []
-    calls = functions_needed(inverse.plan)
+    calls = functions_needed(plan)
     return _passed(calls.union(*(function.calls for function in program.functions)))
 
 
@@ -127,6 +127,7 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
         module=files[0].name.removesuffix(".rs"),
         has_parameters=bool(program.parameters),
         passed=_passed(program.functions[0].calls),
+        passed_ik=_passed_to_ik(program, poses.inverse),
         n=len(robot.variables),
         rows=poses.rows,
         parameters=[repr(value) for value in poses.parameters.values()],
@@ -135,4 +136,5 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
     return CheckProgram(
         (GeneratedFile("check_poses.rs", main),),
         ((compiler, "--edition=2021", "-O", "check_poses.rs"), ("./check_poses",)),
+        answers=poses.inverse is not None,
     )
