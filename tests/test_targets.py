@@ -305,7 +305,7 @@ def octave(script: str, folder: Path) -> str:
 def test_matlab_agrees_with_the_oracles(tmp_path: Path) -> None:
     lines = ["function show(m)\n  printf('%.17g ', m');\nend\n"]
     for case, files in written(matlab.generate, tmp_path):
-        fk, jacobian, both = (file.name.removesuffix(".m") for file in files)
+        fk, jacobian, both = (file.name.removesuffix(".m") for file in files[:3])
         fields = matlab_parameters(files[0].text)
         values = (f"'{f}', {x!r}" for f, x in zip(fields, case.open, strict=True))
         lines.append(f"p = struct({', '.join(values)});\n")
