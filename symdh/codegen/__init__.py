@@ -25,8 +25,9 @@ def generate(robot: Robot, target: str, **options: object) -> tuple[GeneratedFil
     target : str
         Name of one of `TARGETS`.
     **options
-        Of that target: ``trig``, ``precision`` and ``batch`` for C; ``lock`` for C and Python, the
-        joint variables that the inverse kinematics holds at what the seed says.
+        Of that target: ``trig``, ``precision`` and ``batch`` for C; ``lock``, the joint variables
+        that the inverse kinematics holds at what the seed says, and ``ik=False``, which leaves it
+        out, for targets that have it.
 
     Returns
     -------

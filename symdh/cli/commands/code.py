@@ -68,7 +68,7 @@ def _listing() -> str:
     "locks",
     metavar="JOINT",
     multiple=True,
-    help="C, Python: a joint that the inverse kinematics holds at what the seed says, for arms "
+    help="A joint that the inverse kinematics holds at what the seed says, for arms "
     "with more joints than a pose needs. Repeatable.",
 )
 @click.option(

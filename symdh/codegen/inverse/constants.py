@@ -24,6 +24,8 @@ NUMBERS = MappingProxyType(
         "tolerance": "1e-9",
         "rounding": "1e-13",
         "near": "0.05",
+        # What misses by less than this part after Newton's method may hide an answer.
+        "missed": "1e-3",
         # Two answers closer than this, in radians and parts of the reach, are one.
         "same": "1e-6",
     }

@@ -83,15 +83,15 @@ TARGETS: tuple[Target, ...] = (
         "matlab",
         "function files for MATLAB and Octave",
         ("_fk.m", "_jacobian.m", "_fk_jacobian.m", "_ik.m"),
-        options=("lock",),
+        options=("lock", "ik"),
     ),
-    Target("julia", "a Julia module without dependencies", (".jl",), options=("lock",)),
+    Target("julia", "a Julia module without dependencies", (".jl",), options=("lock", "ik")),
     Target("rust", "a Rust module that is no_std and needs no crate", (".rs",)),
     Target(
         "javascript",
         "an ES module with its TypeScript types",
         (".mjs", ".d.mts"),
-        options=("lock",),
+        options=("lock", "ik"),
     ),
     Target(
         "python-ext",

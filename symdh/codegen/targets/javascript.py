@@ -39,7 +39,9 @@ _RESERVED = _KEYWORDS | OWN
 _LANGUAGE = Language(calls=JAVASCRIPT, is_reserved=_RESERVED.__contains__, element="q[{}]")
 
 
-def generate(robot: Robot, *, lock: tuple[Symbol, ...] = ()) -> tuple[GeneratedFile, ...]:
+def generate(
+    robot: Robot, *, lock: tuple[Symbol, ...] = (), ik: bool = True
+) -> tuple[GeneratedFile, ...]:
     """Generate ``NAME.mjs`` and ``NAME.d.mts`` (see `symdh.codegen.generate`)."""
     program = write_program(robot, _LANGUAGE)
     stem = file_stem(robot.name)
@@ -49,7 +51,7 @@ def generate(robot: Robot, *, lock: tuple[Symbol, ...] = ()) -> tuple[GeneratedF
         "facts": program.facts,
         "n": len(program.facts.joints),
         "joint_lines": program.facts.joint_table("q[{}]"),
-        "ik": script_section(robot, program.facts, _LANGUAGE, SCRIPT, lock),
+        "ik": script_section(robot, program.facts, _LANGUAGE, SCRIPT, lock) if ik else None,
         **script_context(_LANGUAGE, SCRIPT),
     }
     return (

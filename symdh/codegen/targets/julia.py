@@ -49,7 +49,9 @@ _LANGUAGE = Language(
 )
 
 
-def generate(robot: Robot, *, lock: tuple[Symbol, ...] = ()) -> tuple[GeneratedFile, ...]:
+def generate(
+    robot: Robot, *, lock: tuple[Symbol, ...] = (), ik: bool = True
+) -> tuple[GeneratedFile, ...]:
     """Generate ``NAME.jl`` (see `symdh.codegen.generate`)."""
     program = write_program(robot, _LANGUAGE)
     stem = file_stem(robot.name)
@@ -61,7 +63,7 @@ def generate(robot: Robot, *, lock: tuple[Symbol, ...] = ()) -> tuple[GeneratedF
         facts=program.facts,
         n=len(program.facts.joints),
         joint_lines=program.facts.joint_table("q[{}]", first=1),
-        ik=script_section(robot, program.facts, _LANGUAGE, SCRIPT, lock),
+        ik=script_section(robot, program.facts, _LANGUAGE, SCRIPT, lock) if ik else None,
         **script_context(_LANGUAGE, SCRIPT),
     )
     return (GeneratedFile(f"{stem}.jl", text),)

@@ -45,10 +45,13 @@ _LONGEST_NAME = 63
 _LANGUAGE = Language(calls=_CALLS, is_reserved=_RESERVED.__contains__, element="q({})", first=1)
 
 
-def generate(robot: Robot, *, lock: tuple[Symbol, ...] = ()) -> tuple[GeneratedFile, ...]:
+def generate(
+    robot: Robot, *, lock: tuple[Symbol, ...] = (), ik: bool = True
+) -> tuple[GeneratedFile, ...]:
     """Generate ``NAME_fk.m``, ``NAME_jacobian.m``, ``NAME_fk_jacobian.m``.
 
-    And ``NAME_ik.m`` where the arm has a closed form. See `symdh.codegen.generate`.
+    And ``NAME_ik.m`` where the arm has a closed form and `ik` asks for it. See
+    `symdh.codegen.generate`.
     """
     stem = file_stem(robot.name)
     if len(f"{stem}_fk_jacobian") > _LONGEST_NAME:
@@ -57,14 +60,14 @@ def generate(robot: Robot, *, lock: tuple[Symbol, ...] = ()) -> tuple[GeneratedF
             "name; give the table a shorter one"
         )
     program = write_program(robot, _LANGUAGE)
-    ik = script_section(robot, program.facts, _LANGUAGE, SCRIPT, lock)
+    section = script_section(robot, program.facts, _LANGUAGE, SCRIPT, lock) if ik else None
     context = {
         "stem": stem,
         "program": program,
         "facts": program.facts,
         "n": len(program.facts.joints),
         "joint_lines": program.facts.joint_table("q({})", first=1),
-        "ik": ik,
+        "ik": section,
         **script_context(_LANGUAGE, SCRIPT),
     }
     files = [
@@ -74,7 +77,7 @@ def generate(robot: Robot, *, lock: tuple[Symbol, ...] = ()) -> tuple[GeneratedF
         )
         for function in program.functions
     ]
-    if ik.program is not None:
+    if section is not None and section.program is not None:
         files.append(GeneratedFile(f"{stem}_ik.m", render("matlab/ik.m.jinja", **context)))
     return tuple(files)
 
