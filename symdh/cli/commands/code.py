@@ -68,8 +68,8 @@ def _listing() -> str:
     "locks",
     metavar="JOINT",
     multiple=True,
-    help="A joint that the inverse kinematics holds at what the seed says, for arms "
-    "with more joints than a pose needs. Repeatable.",
+    help="A joint that the inverse kinematics holds at what the seed says, for arms with more "
+    "joints than a pose needs. Repeatable.",
 )
 @click.option(
     "--verify",
