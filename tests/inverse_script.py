@@ -1,7 +1,8 @@
-"""Generated inverse kinematics in JavaScript and MATLAB, run by node and Octave.
+"""Generated inverse kinematics in JavaScript, MATLAB and Julia, run.
 
-A driver asks for many poses in one process and prints a line for each: how many answers, the joint
-values of all, and for each joint of each whether it is free.
+For node and Octave a driver asks for many poses in one process and prints a line for each: how many
+answers, the joint values of all, and for each joint of each whether it is free. Julia's text is run
+by the interpreter of `julia_subset`.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from julia_subset import Module, julia_parser
 
 from symdh.codegen import GeneratedFile
 from tools import require_tool
@@ -106,7 +108,23 @@ def octave(script: str, folder: Path) -> str:
     return run([require_tool("octave-cli"), "--norc", "--no-history", "--quiet", "ask.m"], folder)
 
 
-LANGUAGES = {"javascript": javascript, "matlab": matlab}
+def julia(
+    stem: str, folder: Path, n: int, requests: Sequence[Request], values: Mapping[str, float]
+) -> list[Reply]:
+    """Ask the module of an arm."""
+    module = Module(julia_parser(), (folder / f"{stem}.jl").read_text(encoding="utf-8"))
+    replies = []
+    for r in requests:
+        goal = np.array(r.goal, dtype=float)
+        seed = None if r.seed is None else np.array(r.seed, dtype=float)
+        q, free = module.call("ik_free", goal, seed=seed, limits=r.limits, **values)
+        shape = (len(q), n)
+        reply = Reply(np.array(q, dtype=float).reshape(shape), np.array(free, bool).reshape(shape))
+        replies.append(reply)
+    return replies
+
+
+LANGUAGES = {"javascript": javascript, "matlab": matlab, "julia": julia}
 
 
 def _number(x: float, infinity: str) -> str:

@@ -698,13 +698,19 @@ def test_an_angle_that_is_no_number_gives_nan(bad: float, tmp_path: Path) -> Non
 # ------------------------------------------------------------------------------ both languages
 
 
+def has_closed_form(robot: Robot) -> bool:
+    return "def ik(" in generate(robot, "python")[0].text
+
+
 @by_name
 def test_the_same_robot_gives_the_same_text(robot: Robot) -> None:
     for target in TARGETS:
         files = generate(robot, target.name)
         assert files == generate(robot, target.name)
-        assert len(files) == len(target.extensions)
-        assert all(map(str.endswith, (file.name for file in files), target.extensions))
+        # MATLAB has a file for inverse kinematics where the arm has a closed form.
+        extensions = [e for e in target.extensions if e != "_ik.m" or has_closed_form(robot)]
+        assert len(files) == len(extensions)
+        assert all(map(str.endswith, (file.name for file in files), extensions))
         for file in files:
             assert file.text.isascii()
             assert file.text.endswith("\n")

@@ -1,7 +1,8 @@
 """Generated inverse kinematics in JavaScript, MATLAB and Julia.
 
 node and Octave run it; the oracle judges the answers, and generated Python says how many there are.
-Julia's text is parsed where a parser of Julia is installed, and never run.
+Julia's text is run by a small interpreter of ours, where a parser of Julia is installed; Julia
+itself has never run it.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import math
 import os
 import re
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ import yaml
 from generated import import_generated
 from inverse_code import FLOATS, Loaded, load
 from inverse_script import LANGUAGES, Reply, Request, octave, run, write
+from julia_subset import JuliaError, Module, julia_parser
 from oracle import read_arm_file
 from sympy import Symbol
 
@@ -205,7 +207,12 @@ def assert_answers_like_python(
 
 
 #: What a language calls parameters whose names it has for itself.
-RENAMED = {"matlab": {"end", "goal"}, "python": {"seed"}, "javascript": {"seed", "goal"}}
+RENAMED = {
+    "matlab": {"end", "goal"},
+    "python": {"seed"},
+    "javascript": {"seed", "goal"},
+    "julia": {"end", "seed", "goal", "length"},
+}
 
 
 def called(language: str, name: str) -> str:
@@ -463,27 +470,42 @@ def test_typescript_accepts_the_modules_themselves(name: str) -> None:
     run([compiler, *options, "--lib", "es2016", "--module", "es2015", module.name], bare)
 
 
+def test_julia_says_what_is_wrong() -> None:
+    _, _, (file,) = written("julia", SYMBOLIC)
+    module = Module(julia_parser(), file.text)
+    given = {"end_": 1.0, "goal_": 1.0, "length_": 1.0}
+    with pytest.raises(JuliaError, match=r"T must be 4 x 4, not \(3, 3\)"):
+        module.call("ik", np.eye(3), **given)
+    with pytest.raises(JuliaError, match="seed must hold 3 numbers, not 2"):
+        module.call("ik", np.eye(4), seed=np.zeros(2), **given)
+    with pytest.raises(JuliaError, match="keyword end_ is not given"):
+        module.call("ik", np.eye(4))
+    with pytest.raises(JuliaError, match="no keyword nearest"):
+        module.call("ik", np.eye(4), nearest=1.0, **given)
+    T = module.call("fk", np.array([0.1, 0.2, 0.3]), **given)
+    answers = module.call("ik", T, seed=np.array([0.1, 0.2, 0.3]), **given)
+    assert np.allclose(answers[0], [0.1, 0.2, 0.3])
+
+
 @pytest.mark.parametrize(
-    "name", [*CHOSEN, SYMBOLIC, SQUARE, TURNTABLE], ids=lambda t: t.split()[-1]
+    ("body", "message"),
+    [
+        ("return q[0]", "index 0 of 3"),
+        ("return q[4]", "index 4 of 3"),
+        ("return zeros(3, 4)[4, 1]", "index 4 of 3"),
+        ("return r[1]", "r is not defined"),
+        ("for k in 1:3\n s = k\n end\n return s", "s is not defined"),
+        ("if length(q)\n return q\n end", "must be a Bool"),
+        ("return f(q, q)", "f takes 1 arguments"),
+        ("return sqrt(q[1] - 2.0)", "DomainError"),
+        ("return cos(q[1] / 0.0)", "DomainError"),
+        ("return [1.0, 2.0] * q", "another thing"),
+    ],
 )
-def test_julia_is_parsed_without_an_error(name: str) -> None:
-    parser = julia_parser()
-    _, _, (module,) = written("julia", name)
-    tree = parser(module.text.encode())
-    assert not tree.root_node.has_error
-    defined = re.findall(r"^(?:function )?(ik\w*!?)\(", module.text, re.MULTILINE)
-    assert {"ik", "ik_free", "ik_branches!"} <= set(defined)
-    # What is called is there, and called with as many arguments as it has.
-    assert set(re.findall(r"\b(ik\w*!?)\(", module.text)) == set(defined)
-
-
-def julia_parser() -> Callable[[bytes], Any]:
-    """Return a parser of Julia; skip the test without one."""
-    tree_sitter = pytest.importorskip("tree_sitter")
-    grammar = pytest.importorskip("tree_sitter_julia")
-    parse = tree_sitter.Parser(tree_sitter.Language(grammar.language())).parse
-    assert parse(b"f(x) = [x").root_node.has_error
-    return parse
+def test_the_interpreter_of_julia_refuses_what_julia_refuses(body: str, message: str) -> None:
+    module = Module(julia_parser(), f"module M\nfunction f(q)\n {body}\n end\nend\n")
+    with pytest.raises(JuliaError, match=message):
+        module.call("f", np.array([1.0, 2.0, 3.0]))
 
 
 # ------------------------------------------------------------------------------ the text of it
@@ -499,6 +521,16 @@ def test_without_a_closed_form_the_head_says_why(name: str, target: str) -> None
     assert "No inverse kinematics: " in head
     if INDEX[name]["dof"] == 7:
         assert "7 joints move" in head
+
+
+@in_each_target
+@pytest.mark.parametrize("name", ["planar_2r", "kuka_iiwa7"])
+def test_it_may_be_left_out_and_nothing_is_said_of_it(name: str, target: str) -> None:
+    robot = symdh.load(TABLES[name])
+    files = generate(robot, target, ik=False)
+    assert not any(re.search(r"\bik|inverse", file.text, re.IGNORECASE) for file in files)
+    forward = [file.name for file in generate(robot, target) if not file.name.endswith("_ik.m")]
+    assert [file.name for file in files] == forward
 
 
 @in_each_target

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from julia_subset import Module, julia_parser
 from oracle import read_arm_file
 from test_codegen import (
     HOSTILE_PARAMETERS,
@@ -305,7 +306,7 @@ def octave(script: str, folder: Path) -> str:
 def test_matlab_agrees_with_the_oracles(tmp_path: Path) -> None:
     lines = ["function show(m)\n  printf('%.17g ', m');\nend\n"]
     for case, files in written(matlab.generate, tmp_path):
-        fk, jacobian, both = (file.name.removesuffix(".m") for file in files)
+        fk, jacobian, both = (file.name.removesuffix(".m") for file in files[:3])
         fields = matlab_parameters(files[0].text)
         values = (f"'{f}', {x!r}" for f, x in zip(fields, case.open, strict=True))
         lines.append(f"p = struct({', '.join(values)});\n")
@@ -539,6 +540,19 @@ def test_julia_agrees_with_the_oracles(tmp_path: Path) -> None:
             lines.append(f"show_({name}.jacobian({arguments})); show_(J); println()\n")
     (tmp_path / "main.jl").write_text("".join(lines))
     assert_agrees(run([program, "--startup-file=no", "main.jl"], tmp_path))
+
+
+def test_julia_agrees_with_the_oracles_in_our_interpreter(tmp_path: Path) -> None:
+    parse = julia_parser()
+    lines = []
+    for case, (file,) in written(julia.generate, tmp_path):
+        module = Module(parse, file.text)
+        given = dict(zip(julia_parameters(file.text), case.open, strict=True))
+        for q in case.q:
+            T, J = module.call("fk_jacobian", q, **given)
+            found = (module.call("fk", q, **given), T, module.call("jacobian", q, **given), J)
+            lines.append(" ".join(repr(float(x)) for matrix in found for x in matrix.ravel()))
+    assert_agrees("\n".join(lines))
 
 
 # --------------------------------------------------------------------------------- all languages
