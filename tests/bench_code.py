@@ -1,10 +1,14 @@
 """`make bench-code`: generated code against what other tools generate, in one interleaved run.
 
-CasADi, SymForce and Pinocchio come from their wheels, into a throw-away environment
-(SYMDH_BENCH_VENV names one that is there already); what does not install is named and left out.
-Every figure is CPU time, the median of the best quarter of many rounds in which all take turns:
-what else the machine does only ever adds. Ratios compare like with like; nanoseconds alone say more
-about the machine.
+CasADi, SymForce, sympy and Pinocchio come from their wheels, into a throw-away environment;
+SYMDH_BENCH_VENV names one that is there already, made by
+
+    python3 -m venv VENV && VENV/bin/pip install casadi symforce sympy pin
+
+and SYMDH_BENCH_VENV=none does without. What does not install is named and left out. Every figure is
+CPU time, the median of the best quarter of many rounds in which all take turns: what else the
+machine does only ever adds. Ratios compare like with like; nanoseconds alone say more about the
+machine.
 """
 
 from __future__ import annotations
@@ -21,6 +25,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +34,7 @@ from sympy import Expr
 
 import symdh
 from symdh.codegen import generate
+from symdh.codegen.names import file_stem
 from symdh.robot import Convention, JointType, Robot
 
 TABLES = Path(__file__).parent / "data" / "tables"
@@ -45,11 +51,17 @@ POSES = 1000
 RIVALS = ("casadi", "symforce", "sympy")
 TASKS = ("fk", "jacobian", "both")
 
+#: Calls under a loop: results into a few places, or each into its own.
 LOOP = """
 void many(long count, long n, long size, const double *q, double *out)
 {
     long i;
     for (i = 0; i < count; ++i) { call(&q[n * i], &out[size * (i % 8)]); }
+}
+void each(long count, long n, long size, const double *q, double *out)
+{
+    long i;
+    for (i = 0; i < count; ++i) { call(&q[n * i], &out[size * i]); }
 }
 """
 
@@ -102,38 +114,60 @@ void call(const double *q, double *out)
 }
 """
 
-PINOCCHIO = """
+#: Compiled once: its model is made at run time anyhow.
+PINOCCHIO = (
+    """
 #include <pinocchio/algorithm/frames.hpp>
 #include <pinocchio/algorithm/jacobian.hpp>
 #include <pinocchio/algorithm/kinematics.hpp>
-#include <cmath>
 using namespace pinocchio;
-static Model model; static Data *data; static FrameIndex tip;
+static Model model; static Data *data; static FrameIndex tip; static Eigen::MatrixXd J;
+static int pose, jacobian;
 static SE3 rz(double c, double s, double d) { SE3 M = SE3::Identity();
     M.rotation() << c,-s,0, s,c,0, 0,0,1; M.translation() << 0,0,d; return M; }
 static SE3 rx(double c, double s, double a) { SE3 M = SE3::Identity();
     M.rotation() << 1,0,0, 0,c,-s, 0,s,c; M.translation() << a,0,0; return M; }
-static void build() { JointIndex at = 0; SE3 next = SE3::Identity();
-%(rows)s
-    tip = model.addFrame(Frame("tip", at, 0, next, OP_FRAME)); data = new Data(model); }
-extern "C" void call(const double *q, double *out)
+/* Of each row: 0 fixed, 1 turns, 2 slides; cos, sin theta; d; cos, sin alpha; a. */
+extern "C" void build(int count, const double (*rows)[7], int modified)
 {
-    if (!data) { build(); }
+    JointIndex at = 0; SE3 next = SE3::Identity(); model = Model();
+    for (int k = 0; k < count; ++k) {
+        const double *r = rows[k];
+        if (modified) { next = next * rx(r[4], r[5], r[6]); }
+        next = next * rz(r[1], r[2], r[3]);
+        if (r[0] != 0) {
+            const std::string name = "j" + std::to_string(k);
+            at = r[0] == 1 ? model.addJoint(at, JointModelRZ(), next, name)
+                           : model.addJoint(at, JointModelPZ(), next, name);
+            next = SE3::Identity();
+        }
+        if (!modified) { next = next * rx(r[4], r[5], r[6]); }
+    }
+    tip = model.addFrame(Frame("tip", at, 0, next, OP_FRAME));
+    delete data; data = new Data(model); J = Eigen::MatrixXd::Zero(6, model.nv);
+}
+extern "C" void choose(int with_pose, int with_jacobian)
+{ pose = with_pose; jacobian = with_jacobian; }
+static void call(const double *q, double *out)
+{
     Eigen::Map<const Eigen::VectorXd> joints(q, model.nq);
-    if (%(jacobian)d) {
-        static Eigen::MatrixXd J = Eigen::MatrixXd::Zero(6, model.nv);
+    if (jacobian) {
         computeJointJacobians(model, *data, joints);
         getFrameJacobian(model, *data, tip, LOCAL_WORLD_ALIGNED, J);
         Eigen::Map<Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> >
-            (out + %(offset)d, 6, model.nv) = J;
+            (out + (pose ? 12 : 0), 6, model.nv) = J;
     } else { forwardKinematics(model, *data, joints); }
-    if (%(pose)d) {
+    if (pose) {
         const SE3 &M = updateFramePlacement(model, *data, tip);
         Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor> > T(out);
         T.leftCols<3>() = M.rotation(); T.col(3) = M.translation();
     }
 }
+extern "C" {
 """
+    + LOOP
+    + "}"
+)
 
 
 # ------------------------------------------------------------------------------- the contestants
@@ -173,23 +207,18 @@ def clean(x: float) -> float:
 class Contestant:
     """One tool's code for one task, compiled under a loop."""
 
-    def __init__(self, name: str, source: Path, *, more: list[str] | None = None) -> None:
+    def __init__(self, name: str, library: Path, prepare: Callable[[Any], None] | None = None):
         self.name = name
-        library = source.with_suffix(".so")
-        compiler = "g++" if source.suffix == ".cpp" else "gcc"
-        subprocess.run(
-            [compiler, *FLAGS, "-shared", "-fPIC", "-w", str(source), "-o", str(library), "-lm"]
-            + (more or []),
-            check=True,
-            capture_output=True,
-        )
         self.library = ctypes.CDLL(str(library))
+        self.prepare = prepare
         self.times: list[float] = []
 
-    def run(self, q: np.ndarray, out: np.ndarray, size: int) -> None:
+    def run(self, q: np.ndarray, out: np.ndarray, size: int, loop: str = "many") -> None:
+        if self.prepare is not None:
+            self.prepare(self.library)
         pointer = ctypes.POINTER(ctypes.c_double)
         start = time.thread_time()
-        self.library.many(
+        getattr(self.library, loop)(
             ctypes.c_long(len(q)),
             ctypes.c_long(q.shape[1]),
             ctypes.c_long(size),
@@ -200,19 +229,33 @@ class Contestant:
 
     @property
     def nanoseconds(self) -> float:
-        best = sorted(self.times)[: max(1, len(self.times) // 4)]
-        return statistics.median(best)
+        return typical(self.times)
+
+
+def typical(times: list[float]) -> float:
+    """Median of the best quarter."""
+    return statistics.median(sorted(times)[: max(1, len(times) // 4)])
+
+
+def compiled(source: Path, *more: str) -> Path:
+    """Compile a source into a library beside it."""
+    library = source.with_suffix(".so")
+    compiler = "g++" if source.suffix == ".cpp" else "gcc"
+    command = [compiler, *FLAGS, "-shared", "-fPIC", "-w", str(source), "-o", str(library)]
+    subprocess.run([*command, "-lm", *more], check=True, capture_output=True)
+    return library
 
 
 def our_source(robot: Robot, task: str, folder: Path, trig: str) -> Path:
     """Write our code with the entries where the others put theirs."""
-    files = generate(robot, "c", trig=trig, batch=True)
-    for file in files:
-        (folder / file.name).write_text(file.text)
-    stem = files[1].name.removesuffix(".c")
+    place = folder / trig
+    place.mkdir(exist_ok=True)
+    for file in generate(robot, "c", trig=trig, batch=True):
+        (place / file.name).write_text(file.text)
+    stem = file_stem(robot.name)
     name = {"fk": "fk", "jacobian": "jacobian", "both": "fk_jacobian"}[task]
     outs = {"fk": "out", "jacobian": "out", "both": "out, out + 16"}[task]
-    path = folder / f"ours_{trig}_{task}.c"
+    path = place / f"ours_{task}.c"
     path.write_text(
         f'#include "{stem}.c"\n'
         f"static void call(const double *q, double *out) {{ {stem}_{name}(q, {outs}); }}\n{LOOP}"
@@ -241,33 +284,35 @@ def hand_source(chain: dict[str, Any], task: str, folder: Path) -> Path:
     return path
 
 
-def pinocchio_source(chain: dict[str, Any], task: str, folder: Path) -> Path:
-    lines = []
-    for k, r in enumerate(chain["rows"]):
-        ct, st = r["cs_theta"]
-        ca, sa = r["cs_alpha"]
-        x = f"rx({ca!r}, {sa!r}, {r['a']!r})"
-        z = f"rz({ct!r}, {st!r}, {r['d']!r})"
-        before = f"next = next * {x};" if chain["modified"] else ""
-        after = "" if chain["modified"] else f"next = next * {x};"
-        if r["variable"] is None:
-            lines.append(f"    {before} next = next * {z}; {after}")
-            continue
-        kind = "JointModelRZ" if r["turns"] else "JointModelPZ"
-        # The offset of the row stands before the joint; about and along z they commute.
-        lines.append(
-            f"    {before} next = next * {z};"
-            f' at = model.addJoint(at, {kind}(), next, "j{k}"); next = SE3::Identity(); {after}'
-        )
-    path = folder / f"pinocchio_{task}.cpp"
-    text = PINOCCHIO % {
-        "rows": "\n".join(lines),
-        "pose": task != "jacobian",
-        "jacobian": task != "fk",
-        "offset": 12 if task == "both" else 0,
-    }
-    path.write_text(text + 'extern "C" ' + LOOP.strip())
-    return path
+def pinocchio_library(folder: Path, prefix: Path) -> Path | None:
+    """Compile the loop over Pinocchio, where that works."""
+    source = folder / "pinocchio.cpp"
+    source.write_text(PINOCCHIO)
+    try:
+        return compiled(source, *pinocchio_flags(prefix))
+    except subprocess.CalledProcessError as error:
+        print("Pinocchio does not compile here:", error.stderr.decode()[:300])
+        return None
+
+
+def pinocchio_model(chain: dict[str, Any], task: str) -> Callable[[Any], None]:
+    """Return what makes Pinocchio's library compute a task of a chain."""
+    kinds = [0 if r["variable"] is None else 1 if r["turns"] else 2 for r in chain["rows"]]
+    numbers = [
+        [kind, *r["cs_theta"], r["d"], *r["cs_alpha"], r["a"]]
+        for kind, r in zip(kinds, chain["rows"], strict=True)
+    ]
+    rows = np.array(numbers, dtype=float)
+    built = []
+
+    def prepare(library: Any) -> None:
+        if not built:
+            address = rows.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
+            library.build(ctypes.c_int(len(rows)), address, ctypes.c_int(chain["modified"]))
+            built.append(True)
+        library.choose(ctypes.c_int(task != "jacobian"), ctypes.c_int(task != "fk"))
+
+    return prepare
 
 
 def rival_source(python: str, tool: str, chain: dict[str, Any], task: str, folder: Path) -> Path:
@@ -291,9 +336,20 @@ def rival_source(python: str, tool: str, chain: dict[str, Any], task: str, folde
 # ---------------------------------------------------------------------------------- environment
 
 
-def bench_python(folder: Path) -> tuple[str, set[str], Path | None]:
-    """Return a Python with the other tools, which of them it has, and Pinocchio's prefix."""
+@dataclass(frozen=True)
+class Peers:
+    """The other tools: a Python, which of them it has, and a library for Pinocchio."""
+
+    python: str
+    have: frozenset[str]
+    pinocchio: Path | None
+
+
+def find_peers(folder: Path) -> Peers:
+    """Find the other tools, or install them."""
     given = os.environ.get("SYMDH_BENCH_VENV")
+    if given == "none":
+        return Peers(sys.executable, frozenset({"sympy"}), None)
     venv = Path(given) if given else folder / "venv"
     python = str(venv / "bin" / "python")
     if not given:
@@ -310,7 +366,8 @@ def bench_python(folder: Path) -> tuple[str, set[str], Path | None]:
         == 0
     }
     prefix = next(iter(venv.glob("lib/python3*/site-packages/cmeel.prefix")), None)
-    return python, have, prefix
+    library = pinocchio_library(folder, prefix) if prefix and "pinocchio" in have else None
+    return Peers(python, frozenset(have), library)
 
 
 #: Pinocchio has more kinds of joint than the lists of Boost hold by default.
@@ -334,24 +391,20 @@ def pinocchio_flags(prefix: Path) -> list[str]:
 # -------------------------------------------------------------------------------------- the rows
 
 
-def contestants(
-    robot: Robot, task: str, folder: Path, python: str, have: set[str], prefix: Path | None
-) -> list[Contestant]:
+def contestants(robot: Robot, task: str, folder: Path, peers: Peers) -> list[Contestant]:
     chain = chain_of(robot)
     found = [
-        Contestant("symdh", our_source(robot, task, folder, "inline")),
-        Contestant("symdh libm", our_source(robot, task, folder, "libm")),
+        Contestant("symdh", compiled(our_source(robot, task, folder, "inline"))),
+        Contestant("symdh libm", compiled(our_source(robot, task, folder, "libm"))),
     ]
     for tool in RIVALS:
-        if tool in have:
-            found.append(Contestant(tool, rival_source(python, tool, chain, task, folder)))
-    found.append(Contestant("hand loop", hand_source(chain, task, folder)))
-    if prefix is not None and "pinocchio" in have:
-        try:
-            source = pinocchio_source(chain, task, folder)
-            found.append(Contestant("pinocchio", source, more=pinocchio_flags(prefix)))
-        except subprocess.CalledProcessError as error:
-            print("pinocchio does not compile here:", error.stderr.decode()[:300])
+        if tool in peers.have:
+            source = rival_source(peers.python, tool, chain, task, folder)
+            found.append(Contestant(tool, compiled(source)))
+    found.append(Contestant("hand loop", compiled(hand_source(chain, task, folder))))
+    if peers.pinocchio is not None:
+        model = pinocchio_model(chain, task)
+        found.append(Contestant("pinocchio", peers.pinocchio, model))
     return found
 
 
@@ -386,134 +439,138 @@ def agree(task: str, results: dict[str, np.ndarray], n: int) -> None:
             raise SystemExit(f"{name} computes another {task} than symdh")
 
 
-def batch_times(robot: Robot, folder: Path, count: int) -> dict[str, float]:
-    """Nanoseconds a pose of the batch functions and of a loop over the scalar one."""
-    files = generate(robot, "c", batch=True)
-    for file in files:
-        (folder / file.name).write_text(file.text)
-    stem, n = files[1].name.removesuffix(".c"), len(robot.variables)
-    source = folder / "batch.c"
-    source.write_text(
-        f'#include "{stem}.c"\n'
-        "void loop(size_t count, const double *q, double *T)\n{\n    size_t i;\n"
-        f"    for (i = 0; i < count; ++i) {{ {stem}_fk(&q[{n} * i], &T[16 * i]); }}\n}}\n"
-    )
-    library = folder / "batch.so"
-    command = ["gcc", *FLAGS, "-shared", "-fPIC", str(source), "-o", str(library), "-lm"]
-    subprocess.run(command, check=True)
-    code = ctypes.CDLL(str(library))
-    q = np.random.default_rng(1).uniform(-math.pi, math.pi, (n, count))
-    T = np.zeros((16, count))
+def measure_batch(
+    robot: Robot, folder: Path, count: int, rivals: list[Contestant]
+) -> dict[str, float]:
+    """Nanoseconds a pose of the batch functions, and of loops over everybody's pose."""
+    stem, n = file_stem(robot.name), len(robot.variables)
+    code = ctypes.CDLL(str(folder / "inline" / "ours_fk.so"))
+    q = np.random.default_rng(1).uniform(-math.pi, math.pi, (count, n))
+    columns, T = np.ascontiguousarray(q.T), np.zeros((16, count))
     pointer = ctypes.POINTER(ctypes.c_double)
-    size, qp, Tp = ctypes.c_size_t(count), q.ctypes.data_as(pointer), T.ctypes.data_as(pointer)
+    size, Tp = ctypes.c_size_t(count), T.ctypes.data_as(pointer)
+    qp, cp = q.ctypes.data_as(pointer), columns.ctypes.data_as(pointer)
+    soa, aos = getattr(code, f"{stem}_fk_batch"), getattr(code, f"{stem}_fk_poses")
     calls: dict[str, Callable[[], object]] = {
-        "structure of arrays": lambda: getattr(code, f"{stem}_fk_batch")(size, qp, size, Tp, size),
-        "array of poses": lambda: getattr(code, f"{stem}_fk_poses")(size, qp, Tp),
-        "loop over fk": lambda: code.loop(size, qp, Tp),
+        "symdh": lambda: soa(size, cp, size, Tp, size),
+        "symdh array of poses": lambda: aos(size, qp, Tp),
     }
     times: dict[str, list[float]] = {name: [] for name in calls}
     repeats = max(1, 100_000 // count)
-    for _ in range(max(5, min(ROUNDS, 2_000_000 // count))):
+    for rival in rivals:
+        rival.times.clear()
+    for _ in range(max(8, min(ROUNDS, 5_000_000 // count))):
         for name, call in calls.items():
             start = time.thread_time()
             for _ in range(repeats):
                 call()
             times[name].append((time.thread_time() - start) / count / repeats * 1e9)
-    return {name: min(each) for name, each in times.items()}
+        for rival in rivals:
+            rival.run(q, T, 16, "each")
+    loops = {f"{rival.name} in a loop": rival.nanoseconds for rival in rivals}
+    return {name: typical(each) for name, each in times.items()} | loops
 
 
-def instructions(robot: Robot, folder: Path) -> int | None:
-    """Instructions of one pose, counted by callgrind, the difference of two runs."""
+def instructions(source: Path, n: int) -> int | None:
+    """Instructions of one call, counted by callgrind inside the loop."""
     valgrind = shutil.which("valgrind")
     if valgrind is None:
         return None
-    files = generate(robot, "c")
-    for file in files:
-        (folder / file.name).write_text(file.text)
-    stem, n = files[1].name.removesuffix(".c"), len(robot.variables)
-    main = folder / "count.c"
+    main, program = source.with_name("count.c"), str(source.with_name("count"))
+    size = 16 + 6 * n
     main.write_text(
-        f'#include <stdlib.h>\n#include "{stem}.h"\nint main(int argc, char **argv)\n{{\n'
-        f"    double q[{n}] = {{0.1}}, T[16]; int i, times = atoi(argv[argc - 1]);\n"
-        f"    for (i = 0; i < times; ++i) {{ {stem}_fk(q, T); }}\n    return T[15] != 1.0;\n}}\n"
+        "void many(long, long, long, const double *, double *);\nint main(void)\n{\n"
+        f"    double q[{n}] = {{0.1}}, out[{8 * size}];\n"
+        f"    many(1000, 0, {size}, q, out);\n    return 0;\n}}\n"
     )
-    program = str(folder / "count")
-    # Valgrind does not know every instruction of this machine: a plain one is counted.
-    command = ["gcc", "-O2", "-mavx", str(main), str(folder / f"{stem}.c"), "-o", program, "-lm"]
+    # Valgrind does not know every instruction of every machine: plain ones are counted.
+    command = ["gcc", "-O2", "-mavx", "-w", str(source), str(main), "-o", program, "-lm"]
     subprocess.run(command, check=True)
-    counts = []
-    for times in ("1000", "2000"):
-        out = f"--callgrind-out-file={folder / 'callgrind'}"
-        done = subprocess.run(
-            [valgrind, "--tool=callgrind", out, program, times],
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        found = re.search(r"Collected : (\d+)", done.stderr)
-        if found is None:
-            return None
-        counts.append(int(found[1]))
-    return (counts[1] - counts[0]) // 1000
+    options = ["--tool=callgrind", "--toggle-collect=many", "--callgrind-out-file=/dev/null"]
+    done = subprocess.run(
+        [valgrind, *options, program], capture_output=True, text=True, check=False
+    )
+    found = re.search(r"Collected : (\d+)", done.stderr)
+    return int(found[1]) // 1000 if found else None
 
 
-def python_times(robot: Robot, folder: Path) -> dict[str, float]:
-    """Nanoseconds of the Python module: one call, and a pose of a batch."""
-    (file,) = generate(robot, "python")
-    space: dict[str, Any] = {"__name__": "bench"}
-    exec(compile(file.text, file.name, "exec"), space)
-    fk, n = space["fk"], len(robot.variables)
-    one, many = [0.1] * n, np.random.default_rng(1).uniform(-3, 3, (100_000, n))
-    singles, batches = [], []
-    for _ in range(15):
-        start = time.thread_time()
-        for _ in range(500):
-            fk(one)
-        singles.append((time.thread_time() - start) / 500 * 1e9)
-        start = time.thread_time()
-        fk(many)
-        batches.append((time.thread_time() - start) / len(many) * 1e9)
-    return {"fk(list)": min(singles), "fk(array of 1e5)": min(batches)}
+def python_rows(robot: Robot, folder: Path, peers: Peers) -> dict[str, dict[str, float]]:
+    """Run the Python side, in the Python of the other tools."""
+    place = folder / "python"
+    place.mkdir()
+    for file in (*generate(robot, "python"), *generate(robot, "python-ext")):
+        (place / file.name).write_text(file.text)
+    build = [peers.python, "setup.py", "--quiet", "build_ext", "--inplace"]
+    env = {**os.environ, "CFLAGS": " ".join(FLAGS)}
+    done = subprocess.run(build, cwd=place, env=env, check=False, capture_output=True, text=True)
+    if done.returncode:
+        print("the extension does not build here:", done.stderr[-300:])
+    script = Path(__file__).with_name("bench_python.py")
+    command = [peers.python, str(script), str(place), file_stem(robot.name), str(ROUNDS)]
+    chain = json.dumps(chain_of(robot))
+    ran = subprocess.run(command, input=chain, text=True, check=True, stdout=subprocess.PIPE)
+    found: dict[str, dict[str, float]] = json.loads(ran.stdout)
+    return found
+
+
+class Report:
+    """Prints rows of nanoseconds, ours first and the others as ratios, and keeps who beats us."""
+
+    def __init__(self) -> None:
+        self.rows = 0
+        self.losses: list[str] = []
+
+    def row(self, robot: str, name: str, times: dict[str, float]) -> None:
+        ours, *others = times
+        ratios = "   ".join(f"{other} {times[other] / times[ours]:.2f}" for other in others)
+        print(f"{robot:8} {name:22} {times[ours]:9.1f} ns   {ratios}", flush=True)
+        self.rows += 1
+        # Ways of our own that are slower or faster are no rivals.
+        faster = [o for o in others if times[o] < times[ours] and not o.startswith("symdh")]
+        self.losses += [f"{robot} {name}: {other}" for other in faster]
+
+
+def bench(robot: Robot, name: str, folder: Path, peers: Peers, report: Report) -> None:
+    """Print all rows of one robot."""
+    n = len(robot.variables)
+    for task in TASKS:
+        found = contestants(robot, task, folder, peers)
+        measure(robot, task, found)
+        report.row(name, f"C {task}", {one.name: one.nanoseconds for one in found})
+        if task == "fk":
+            for count in (1024, 1_000_000):
+                times = measure_batch(robot, folder, count, found[:1] + found[2:])
+                report.row(name, f"C batch of {count}", times)
+    for row, times in python_rows(robot, folder, peers).items():
+        report.row(name, row, times)
+    counts = {f"symdh {task}": folder / "inline" / f"ours_{task}.c" for task in TASKS}
+    counts |= {f"{tool} fk": folder / tool / "fk.c" for tool in RIVALS if tool in peers.have}
+    counts["hand loop fk"] = folder / "hand_fk.c"
+    counted = [f"{what} {instructions(source, n)}" for what, source in counts.items()]
+    print(f"{name:8} instructions of a call (callgrind, -O2 -mavx): {', '.join(counted)}\n")
 
 
 def main() -> int:
-    """Print all rows; exit status 1 where symdh is not first among the C scalars."""
+    """Print all rows; exit status 1 where symdh is not first in one."""
     folder = Path(tempfile.mkdtemp(prefix="symdh-bench-"))
-    losses = []
+    report = Report()
     try:
-        python, have, prefix = bench_python(folder)
-        missing = {*RIVALS, "pinocchio"} - have
+        peers = find_peers(folder)
+        missing = {*RIVALS, "pinocchio"} - peers.have
         if missing:
             print("not installed, left out:", ", ".join(sorted(missing)))
         print(f"gcc {' '.join(FLAGS)}; ns a call of symdh, and how many times as long others take")
         for name, table in ROBOTS.items():
-            robot = symdh.load(TABLES / f"{table}.yaml")
             place = folder / table
             place.mkdir()
-            for task in TASKS:
-                found = contestants(robot, task, place, python, have, prefix)
-                measure(robot, task, found)
-                ours, *others = found
-                ratios = [f"{o.name} {o.nanoseconds / ours.nanoseconds:.2f}" for o in others]
-                print(f"{name:8} {task:9} {ours.nanoseconds:7.1f} ns   {'   '.join(ratios)}")
-                losses += [
-                    f"{name} {task}: {o.name}" for o in others if o.nanoseconds < ours.nanoseconds
-                ]
-            for count in (1024, 1_000_000):
-                times = batch_times(robot, place, count)
-                print(f"{name:8} batch of {count}: {show(times)}")
-            print(f"{name:8} Python: {show(python_times(robot, place))}")
-            counted = instructions(robot, place)
-            print(f"{name:8} instructions of a pose (-O2 -mavx): {counted or 'no valgrind here'}")
-            sys.stdout.flush()
+            bench(symdh.load(TABLES / f"{table}.yaml"), name, place, peers, report)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
-    print("symdh is first in every row" if not losses else "not first: " + "; ".join(losses))
-    return 1 if losses else 0
-
-
-def show(times: dict[str, float]) -> str:
-    return ", ".join(f"{name} {value:.1f} ns" for name, value in times.items())
+    behind = {loss.rpartition(": ")[0] for loss in report.losses}
+    print(f"symdh is first in {report.rows - len(behind)} of {report.rows} rows")
+    for loss in report.losses:
+        print(f"not first: {loss} is faster")
+    return 1 if report.losses else 0
 
 
 if __name__ == "__main__":

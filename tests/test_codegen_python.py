@@ -13,7 +13,7 @@ import array_api_strict
 import numpy as np
 import pytest
 from generated import import_generated
-from oracle import EPSILON, Arm, read_arm_file
+from oracle import EPSILON, EXTENDED, Arm, read_arm_file
 from sympy import Integer
 from test_codegen import (
     FORMULAS,
@@ -155,6 +155,20 @@ def test_angles_of_a_million_radians_cost_nothing(table: Path, tmp_path: Path) -
     assert np.abs(module.jacobian(q) - J).max() <= tolerance
     for place, one in enumerate(q):
         assert np.abs(module.fk(one) - T[place]).max() <= tolerance
+
+
+@pytest.mark.parametrize("largest", [10.0, 1e6, 1e15])
+def test_half_angles_have_no_bad_place(largest: float, tmp_path: Path) -> None:
+    """Where the tangent of half the angle is 0, 1 or beyond bounds, and next to it."""
+    generator = np.random.default_rng(12)
+    quarters = np.concatenate([np.arange(-8, 9), generator.integers(0, int(largest), 500)])
+    edges = quarters * (np.pi / 4)
+    beside = [np.nextafter(edges, end) for end in (-np.inf, np.inf)]
+    angles = np.concatenate([edges, *beside, generator.uniform(-largest, largest, 5000)])
+    poses = module_of(Robot("turn", STANDARD, (revolute(Q1),)), tmp_path).fk(angles[:, None])
+    exact = EXTENDED.array(angles)
+    for row, function in enumerate((EXTENDED.cos, EXTENDED.sin)):
+        assert np.abs(poses[:, row, 0] - function(exact)).max() <= 2 * EPSILON
 
 
 def large_poses(arm: Arm) -> np.ndarray:
