@@ -61,6 +61,7 @@ from symdh.notation.nodes import (
     Tuple,
     leaves,
 )
+from symdh.render.terminal import render_chapters
 from symdh.robot import JointType
 
 ROOT = Path(__file__).parent
@@ -907,6 +908,62 @@ def test_unknown_angles_stay_in_the_position() -> None:
     assert (x.name.index, y.name.index) == ("x", "y")
     assert [leaf.label for leaf in leaves(x.forms[0]) if isinstance(leaf, Short)] == ["12"]
     assert len(x.forms) == 1
+
+
+def numbers_of(rows: str, values: str) -> str:
+    """Return the chapter of numbers as it is read on a terminal; of a table without units."""
+    head = f"name: arm\nconvention: standard\nvalues: {{{values}}}\ncolumns: [theta, d, a, alpha]\n"
+    document = derive(symdh.loads(f"{head}rows:\n{rows}"))
+    return " ".join(render_chapters([chapter(document, "Numbers")]).split())
+
+
+def test_lengths_without_a_unit_are_plain_numbers() -> None:
+    text = numbers_of("  - [q1, 0, a1, 0]\n", "a1: 2")
+    assert "The table gives a₁ = 2." in text
+    assert "With q₁ = 0 the pose is:" in text
+
+
+def test_every_sum_of_known_angles_is_told() -> None:
+    rows = "".join(f"  - [q{k}, 0, a{k}, 0]\n" for k in (1, 2, 3))
+    text = numbers_of(rows, "q1: 10 deg, q2: 20 deg, q3: 30 deg, a1: 1, a2: 2, a3: 3")
+    assert "Hence q₁ + q₂ = 30°, q₁ + q₂ + q₃ = 60°. The position becomes" in text
+
+
+def test_values_that_no_position_needs_are_not_put_in() -> None:
+    text = numbers_of("  - [q1, d1, 0, 0]\n", "q1: 30 deg")
+    assert "The table gives q₁ = 30°." in text
+    assert "The position becomes" not in text
+    assert "pose" not in text  # d1 has no value
+
+
+@pytest.mark.parametrize("known", ["a1: {}", "a1: {}, q1: 30 deg"])
+@pytest.mark.parametrize(("length", "value"), [("sqrt(a1)", "-1"), ("1/a1", "0")])
+def test_no_numbers_where_a_length_is_not_real(length: str, value: str, known: str) -> None:
+    text = numbers_of(f"  - [q1, 0, {length}, 0]\n", known.format(value))
+    assert f"a₁ = {value}" in text
+    assert "position" not in text
+    assert "pose" not in text
+
+
+def test_an_arm_without_a_closed_form_has_its_numeric_pose_alone() -> None:
+    rows = "".join(f"  - [q{k}, 1, a{k}, 90 deg]\n" for k in range(1, 11))
+    text = numbers_of(rows, ", ".join(f"a{k}: 1" for k in range(1, 11)))
+    assert "The position becomes" not in text
+    assert "q₁₀ = 0 the pose is:" in text
+
+
+def test_a_recursion_from_a_base_that_is_not_there_has_no_equations_of_it() -> None:
+    robot = case_of("skew_14_standard").robot
+    assert not robot.base
+    steps = [
+        [
+            b
+            for b in recursion_module.chapter(Style(robot), start, 14).blocks
+            if isinstance(b, EntrySteps)
+        ]
+        for start in ("base", 0)
+    ]
+    assert len(steps[0]) == len(steps[1]) == 14
 
 
 # -- recursion ------------------------------------------------------------------------------------

@@ -23,7 +23,7 @@ from symdh.derivation.derive import derive
 from symdh.derivation.drawing.choices import Choices
 from symdh.derivation.drawing.draw import MAX_ROWS, Picture, draw
 from symdh.derivation.drawing.painter import Bar, painted
-from symdh.derivation.drawing.shapes import Drawing, Ellipse, Label, Line, Pen
+from symdh.derivation.drawing.shapes import Drawing, Ellipse, Label, Line, Pen, Polygon
 from symdh.derivation.drawing.skeleton import Chain
 from symdh.derivation.drawing.solids import Body
 from symdh.derivation.drawing.view import view_from
@@ -234,6 +234,46 @@ def test_what_is_nearer_is_painted_later() -> None:
         assert pens == [Pen.LINK, Pen.GAP, Pen.LINK]
         assert isinstance(shapes[-1], Line)
         assert shapes[-1].points == (view.point(near.start), view.point(near.end))
+
+
+@pytest.mark.parametrize(("height", "last"), [(30.0, Pen.LINK), (-30.0, Pen.BODY)])
+def test_of_a_body_and_a_bar_the_nearer_is_painted_last(height: float, last: Pen) -> None:
+    """Seen from above, a bar that passes over a body hides it, and one below is hidden."""
+    view = view_from(0, 90)
+    body = Body(1, JointType.REVOLUTE, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), 3.0, 5.0)
+    bar = Bar((-50.0, 0.0, height), (50.0, 0.0, height))
+    assert painted(view, [bar], [body])[-1].pen is last
+
+
+def test_the_ground_stands_below_a_level_first_axis() -> None:
+    """Seen from the side: a plate on edge, ten points below the body, and a post between."""
+    rows = (
+        "  - {alpha: 90 deg, a: 0, d: 0, theta: q1}\n  - {alpha: 90 deg, a: 2, d: 0, theta: q2}\n"
+    )
+    shapes = draw(arm(rows, convention="modified"), choices=Choices(0, 0)).shapes
+    (plate,) = (s for s in shapes if isinstance(s, Polygon) and s.pen is Pen.GROUND)
+    body = next(s for s in shapes if isinstance(s, Ellipse) and s.pen is Pen.BODY)
+    height = min(
+        y for s in shapes if isinstance(s, Line) and s.pen is Pen.BODY for _, y in s.points
+    )
+    assert {round(y, 6) for _, y in plate.points} == {round(height - 10, 6)}
+    post = next(s for s in shapes if isinstance(s, Line) and s.pen is Pen.LINK)
+    assert sorted(round(y, 6) for _, y in post.points) == [round(height - 10, 6), round(height, 6)]
+    assert body.centre[1] > height
+
+
+def test_labels_that_fit_at_no_scale_are_drawn_whole() -> None:
+    """Twelve joints whose names are 38 characters long."""
+    long = "".join(
+        f"  - {{theta: q{k}_{'a' * 35}, d: d{k}_{'b' * 30}, a: a{k}_{'c' * 30}, alpha: 90 deg}}\n"
+        for k in range(1, 13)
+    )
+    drawn = draw(arm(long))
+    assert drawn.width > 430  # a page holds 420
+    for label in labels_of(drawn):
+        x, y = label.centre
+        assert label.width / 2 <= x <= drawn.width - label.width / 2
+        assert label.height / 2 <= y <= drawn.height - label.height / 2
 
 
 def test_a_bar_ends_at_the_body_that_it_enters() -> None:
@@ -486,6 +526,7 @@ def test_a_notebook_shows_what_it_is_given() -> None:
     assert len(formulas) == 5 * 5
     pose = symdh.forward_kinematics(robot)._repr_latex_()
     assert pose == robot._repr_latex_()
+    assert OTHERS["12 joints"]._repr_latex_() is None  # its closed form would fill pages
     assert pose is not None
     assert pose.startswith("$\\displaystyle {}^{0}T_{4} = ")
     story = symdh.derive(robot)._repr_html_()

@@ -18,10 +18,11 @@ import numpy as np
 import pytest
 from conftest import Runner
 from oracle import EXTENDED, elementary, read_arm_file
-from sympy import Expr, Integer, Matrix, Rational, Symbol, atan2, pi, sqrt
+from sympy import Expr, Integer, Matrix, Rational, Symbol, atan2, cos, pi, sin, sqrt
 
+from symdh.cli.main import run
 from symdh.derivation.frames import frames_document
-from symdh.errors import LimitError
+from symdh.errors import LimitError, TableError, UnsupportedError
 from symdh.frames import (
     AssignmentError,
     assign,
@@ -30,11 +31,12 @@ from symdh.frames import (
     pose_of_matrix,
     read_frames,
 )
+from symdh.frames.exact import angle, tidy
 from symdh.frames.geometry import Relation
 from symdh.mechanism import JointAxis, Mechanism, ToolFrame, Vector
 from symdh.render.table_yaml import table_yaml
 from symdh.render.terminal import render_chapters
-from symdh.robot import Axis, Convention, Joint, JointType, MotionKind, Robot
+from symdh.robot import Axis, Convention, Joint, JointType, Motion, MotionKind, Robot
 from symdh.table import load_table, loads_table
 from symdh.table.axes import read_mechanism
 from symdh.table.source import from_text
@@ -452,6 +454,126 @@ def test_bad_axes_are_refused_at_their_place(
     assert sorted(tmp_path.iterdir()) == before
 
 
+ONE = "name: arm\njoints:\n- {point: [0, 0, 0], direction: [0, 0, 1]}\n"
+GIVEN = (
+    "name: arm\nmatrices:\n"
+    "  - [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]\n"
+    "  - [[1, 0, 0, a1], [0, 1, 0, 0], [0, 0, 1, 0]]\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "where", "says"),
+    [
+        ("name: arm\n", "1:1", "joints is missing: the list of joint axes"),
+        ("name: arm\njoints: 5\n", "2:9", "joints must be a list of axes"),
+        (ONE + ONE.splitlines(True)[2] * 50, "53:3", "joints has 51 entries, over 50"),
+        ("name: arm\njoints: [5]\n", "2:10", "joint 1 must be a mapping"),
+        ("name: arm\njoints: [{point: [0, 0, 0]}]\n", "2:10", "missing key direction in joint 1"),
+        (ONE.replace("{", "{variable: [q], "), "3:14", "the name of a symbol is wanted here"),
+        (ONE.replace("{", "{variable: 2q, "), "3:14", "2q is not the name of a symbol"),
+        (
+            ONE.replace("{", "{variable: q, ") + "- {variable: q, point: [1, 0, 0]}\n",
+            "4:14",
+            "q already drives another joint",
+        ),
+        (ONE + "tool: 5\n", "4:7", "tool must be a mapping of keys"),
+        (ONE + "tool: {approach: [0, 0, 1], normal: [1, 0, 0]}\n", "4:7", "missing key point"),
+        (
+            ONE + "tool: {point: [0, 0, 1], approach: [0, 0, 1], normal: [1, 0, 0], "
+            "sliding: [0, 1, 0]}\n",
+            "4:55",
+            "leave normal out",
+        ),
+        (ONE + "frames: {0: {x: sideways}}\n", "4:17", "x is a direction [0, 1, 0], or reverse"),
+        (ONE + "tolerance: [1]\n", "4:12", "an expression is wanted here, not a list"),
+        ("name: arm\nmatrices: 5\n", "2:11", "matrices must be a list of two frames or more"),
+        (GIVEN.replace(", [0, 0, 1, 0]", ""), "3:5", "frame 0 needs three rows of four numbers"),
+        (GIVEN.replace("a1", "a1 +"), "4:20", "expression ends early"),
+        (GIVEN + "joints: [{}, {}]\n", "5:9", "2 frames need 1 joints"),
+        (GIVEN + "joints: [{variable: 2q}]\n", "5:21", "2q is not the name of a symbol"),
+    ],
+)
+def test_what_is_wrong_with_a_file_of_axes(text: str, where: str, says: str) -> None:
+    with pytest.raises(TableError) as caught:
+        read_mechanism(from_text(text, "axes.yaml"))
+    found = {f"{d.line}:{d.column}": d.message for d in reversed(caught.value.diagnostics)}
+    assert says in found[where]
+
+
+def test_joints_between_given_frames_need_not_be_told() -> None:
+    plain = mechanism_from(GIVEN)
+    assert [(axis.type, axis.variable) for axis in plain.axes] == [
+        (JointType.REVOLUTE, Symbol("theta1", real=True))
+    ]
+    assert mechanism_from(GIVEN + "joints: [{x-mass: 3}]\nx-more: 1\n") == plain
+
+
+@pytest.mark.parametrize(
+    "vectors", ["approach: [0, 0, -1], normal: [1, 0, 0]", "sliding: [0, -1, 0], normal: [1, 0, 0]"]
+)
+def test_any_two_vectors_turn_the_tool(vectors: str) -> None:
+    # n = s x a by hand: (0, -1, 0) x (0, 0, -1) = (1, 0, 0).
+    tool = mechanism_from(f"{ONE}tool: {{point: [0, 0, 1], {vectors}}}\n").tool
+    assert tool == ToolFrame((0, 0, 1), approach=(0, 0, -1), sliding=(0, -1, 0))
+
+
+def test_a_normal_along_the_approach_is_told_where_the_tool_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "tool.yaml"
+    path.write_text(f"{ONE}tool: {{point: [0, 2, 0], approach: [0, 0, 1], normal: [0, 0, 1]}}\n")
+    assert run(["frames", str(path)]) == 2  # sliding, which is a x n, does not stand in the file
+    assert f"{path}:4:7: direction is zero" in capsys.readouterr().err
+
+
+def test_what_is_taken_for_exact_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "near.yaml"
+    direction = "[0, 0.9999999999995, 0.000001]"
+    path.write_text(AXES.format(point="[2, 7, 5]", direction=direction, more="units: {length: m}"))
+    assert run(["frames", str(path)]) == 0
+    shown = capsys.readouterr()
+    taken = "axis 2: at right angles to axis 1 within the tolerance, off by 1e-06 rad"
+    assert f"{path}:5:35: warning: {taken}" in shown.err
+    assert "Axis 2: at right angles to axis 1; off by 1e-6 rad." in shown.out
+    assert " = (0, 1, 0.000001)" in shown.out
+
+
+def test_an_origin_that_is_not_free_may_be_given_all_the_same() -> None:
+    skew = AXES.format(point="[2, 7, 5]", direction="[0, 1, 0]", more="")
+    told = mechanism_from(skew + "frames: {1: {origin: [2, 0, 5]}}\n")
+    assert assign_frames(told).steps == assign_frames(mechanism_from(skew)).steps
+
+
+def test_x_against_a_common_normal_whose_length_is_a_symbol() -> None:
+    text = (EXAMPLES / "mechanisms" / "scara_axes.yaml").read_text()
+    turned = text.replace("origin: [a1, 0, d1]", "origin: [a1, 0, d1], x: [-1, 0, 0]")
+    robot = assign(mechanism_from(turned))
+    assert [joint.a for joint in robot.joints[:2]] == [-a1, Symbol("a2", real=True)]
+    assert [joint.theta - joint.variable for joint in robot.joints[:2]] == [pi, pi]
+
+
+def test_a_tool_beside_the_axis_is_out_of_reach() -> None:
+    tool = "tool: {point: [0, 2, 0], approach: [0, 0, 1], sliding: [0, 1, 0]}"
+    with pytest.raises(AssignmentError, match=r"does not meet z_0: they pass at a distance of 2;"):
+        assign(mechanism_from(ONE + tool))
+
+
+def test_an_arm_that_does_not_move_has_no_frames_to_assign() -> None:
+    post = Robot("post", Convention.STANDARD, (Joint(JointType.FIXED, 0 * pi, a1, a1, pi, None),))
+    with pytest.raises(UnsupportedError, match="a mechanism needs at least one joint"):
+        assign(mechanism_of(post))
+
+
+def test_numbers_that_only_look_long() -> None:
+    b = Symbol("b", real=True)
+    assert tidy(sqrt(5 + 2 * sqrt(6)) - sqrt(2) - sqrt(3)) == 0
+    assert angle(a1 * sin(b), a1 * cos(b)) == b
+    assert angle(-a1, a1 * sqrt(3)) == -pi / 6
+
+
 @pytest.mark.parametrize(
     ("more", "line", "says"),
     [
@@ -577,6 +699,21 @@ def pose_of(*rows: Sequence[Any]) -> Matrix:
         ),
         (pose_of([1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 0]), Convention.STANDARD, "left-handed"),
         (pose_of([1, 1, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]), Convention.STANDARD, "no unit vector"),
+        (
+            pose_of([1, Rational(3, 5), 0, 1], [0, Rational(4, 5), 0, 0], [0, 0, 1, 0]),
+            Convention.STANDARD,
+            "x_1 and y_1 are not at right angles",
+        ),
+        (
+            pose_of([cos(t1), 0, sin(t1), 0], [0, 1, 0, 0], [-sin(t1), 0, cos(t1), 0]),
+            Convention.STANDARD,
+            "x_1 is not perpendicular to z_0: their product is -sin(theta1)",
+        ),
+        (
+            pose_of([1, 0, 0, 1], [0, 1, 0, a1], [0, 0, 1, 0]),
+            Convention.STANDARD,
+            "they pass at a distance of a1, x_1 at [0, a1, 0]",
+        ),
     ],
 )
 def test_frames_that_break_a_condition_are_named(
@@ -623,6 +760,20 @@ def test_a_file_may_hold_the_frames_themselves(run_symdh: Runner, tmp_path: Path
     refused = run_symdh("frames", "frames.yaml", "-o", "other.yaml")
     assert "frames.yaml:7:5: x_2 does not meet z_1: they pass at a distance of 3" in refused.stderr
     assert sorted(path.name for path in tmp_path.iterdir()) == ["arm.yaml", "frames.yaml"]
+
+
+def test_given_frames_may_miss_by_less_than_the_tolerance() -> None:
+    text = GIVEN_FRAMES.replace("[0, 0, 1, 0]]\n", "[0, 0, 1, h]]\n")
+    text = text.replace("[0, -1, 0, d1]", "[0.000001, -1, 0, 3]").replace(
+        "-1, 0, 0, d1", "-1, 0, 0, 3"
+    )
+    found = assign_frames(mechanism_from(text.replace("a1", "0")))
+    assert not found.exact
+    h = Symbol("h", real=True)
+    assert found.robot.base == (Motion(MotionKind.TRANSLATION, Axis.Z, h),)
+    assert [joint.alpha for joint in found.robot.joints] == [-pi / 2, pi / 2]
+    assert found.robot.joints[0].theta == q1 - pi / 6
+    assert found.robot.joints[0].d == 3 - h
 
 
 @pytest.mark.parametrize("convention", BOTH)

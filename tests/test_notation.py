@@ -468,6 +468,11 @@ def test_a_map_reaches_the_leaves_of_formulas(around: Callable[[Node, Node], Nod
     assert changed == around(first, other)
 
 
+def test_numbers_in_latex() -> None:
+    assert LATEX.text(Number(Rational(1, 3))) == r"\tfrac{1}{3}"
+    assert LATEX.text(Product((Name("a1"), Number(Integer(3))))) == r"a_{1} \cdot 3"
+
+
 @pytest.mark.parametrize("writer", [PLAIN, UNICODE, LATEX])
 def test_a_node_that_a_writer_does_not_know_is_refused(writer: MathWriter) -> None:
     class Integral:

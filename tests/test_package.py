@@ -9,6 +9,9 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from conftest import Runner
+
+import symdh
 
 ROOT = Path(__file__).parent.parent
 ARM = """\
@@ -28,6 +31,21 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     subprocess.run([*PIP, "wheel", "--no-deps", "--wheel-dir", folder, ROOT], check=True)
     (built,) = folder.glob("symdh-*.whl")
     return built
+
+
+def test_the_names_of_the_package_are_those_it_lists() -> None:
+    assert dir(symdh) == sorted(symdh.__all__)
+    for name in symdh.__all__:
+        assert getattr(symdh, name) is not None
+    with pytest.raises(AttributeError, match="module 'symdh' has no attribute 'inverse'"):
+        _ = symdh.inverse  # type: ignore[attr-defined]
+
+
+def test_the_module_runs_as_the_command(run_symdh: Runner) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "symdh", "--version"], capture_output=True, text=True, check=True
+    )
+    assert done.stdout == run_symdh("--version").stdout == f"symdh {symdh.__version__}\n"
 
 
 def test_the_wheel_holds_all_that_the_package_reads(wheel: Path) -> None:

@@ -614,6 +614,8 @@ def test_an_arm_without_a_closed_form_has_numbers(empty: Path, capsys: Capture) 
     settings = [f"--set={name}={value} rad" for name, value in values.items()]
     assert run(["rotate", "--table", "ten.yaml", *settings, "--format", "json"]) == 0
     got = json.loads(capsys.readouterr().out)
+    assert run(["rotate", "--table", "ten.yaml", *settings]) == 0
+    assert "cos q₁" not in capsys.readouterr().out
     assert got["expressions"] is None
     expected = read_arm(text).pose(values)[:3, :3]
     assert np.abs(np.array(got["matrix"]) - expected).max() < 1e-14
@@ -624,6 +626,41 @@ def test_numbered_angles_have_short_forms(empty: Path, capsys: Capture) -> None:
     assert "c₁₂" in capsys.readouterr().out
     assert run(["rotate", "Rz(theta1) body, Rz(phi) body", "--symbolic"]) == 0
     assert "cos(θ₁ + φ)" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("rotation", "told"),
+    [
+        ("Rx(0 deg) body", ["This is the identity: there is no axis to name."]),
+        (
+            "Rx(180 deg) body",
+            [
+                "A half turn, about k̂ = (1, 0, 0) or its opposite.",
+                "Here (w, x, y, z) = (0, 1, 0, 0).",
+            ],
+        ),
+        (
+            "Ry(0.0000001 rad) body",
+            ["This rotation is close to it (sin θ below 0.000001): the last digits of φ and ψ"],
+        ),
+    ],
+)
+def test_rotations_at_the_edges(
+    rotation: str, told: list[str], empty: Path, capsys: Capture
+) -> None:
+    assert run(["rotate", rotation, "--euler", "zyz"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    for text in told:
+        assert text in shown
+
+
+def test_a_sheet_in_radians_is_answered_in_radians(empty: Path, capsys: Capture) -> None:
+    Path("rad.yaml").write_text("units: {angle: rad}\nrotations: [Rx(0.5) body]\n")
+    assert run(["rotate", "rad.yaml", "--euler", "zyx"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "ψ = atan2(r₃₂, r₃₃) = 0.5" in shown
+    assert "(φ, θ, ψ) = (3.1416, 3.1416, -2.6416)" in shown
+    assert "°" not in shown
 
 
 def test_a_degenerate_case_is_spelt_out(empty: Path, capsys: Capture) -> None:

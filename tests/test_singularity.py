@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import functools
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -27,9 +28,12 @@ import symdh
 from symdh.derivation.derive import derive
 from symdh.derivation.singularity import chapter
 from symdh.derivation.style import Style
-from symdh.errors import LimitError, UnsupportedError
+from symdh.errors import DerivationError, LimitError, UnsupportedError
 from symdh.kinematics.frame import Frame
 from symdh.kinematics.singular import Factor, Kind, Singularities, determinant, singularities
+from symdh.kinematics.singular.factors import HalfAngles
+from symdh.kinematics.singular.solving import zeros
+from symdh.kinematics.singular.trig_ring import TrigRing
 from symdh.kinematics.velocity import jacobian
 from symdh.render.terminal import render_chapters
 from symdh.table import parse_expression
@@ -245,6 +249,52 @@ def table_text(rows: str, more: str = "") -> str:
         "name: arm\nconvention: standard\nunits: {angle: deg, length: m}\n"
         f"columns: [theta, d, a, alpha]\nrows:\n{rows}{more}"
     )
+
+
+@pytest.mark.parametrize(
+    ("make", "expected"),
+    [
+        (lambda c, s: 1 + c, (pi,)),
+        (lambda c, s: c - 1, (0,)),
+        (lambda c, s: 2 * s + 2, (-pi / 2,)),
+        (lambda c, s: s - 1, (pi / 2,)),
+        (lambda c, s: c, (-pi / 2, pi / 2)),
+        (lambda c, s: 3 * s, (0, pi)),
+        (lambda c, s: c + s, (-pi / 4, 3 * pi / 4)),
+        (lambda c, s: 1 + 2 * c, (2 * pi / 3, -2 * pi / 3)),
+        (lambda c, s: c**2 - s, ()),
+    ],
+)
+def test_zeros_of_one_joint(
+    make: Callable[[Any, Any], Any], expected: tuple[Expr | int, ...]
+) -> None:
+    """By hand: a cos x + b sin x + c = 0."""
+    ring = TrigRing(load(table_named("planar_2r")))
+    k = ring.angles.index(THETA[2])
+    element = make(ring.ring.gens[2 * k], ring.ring.gens[2 * k + 1])
+    assert zeros(ring, element, THETA[2]) == expected
+
+
+def test_lengths_may_be_sums_and_powers() -> None:
+    found = singularities(symdh.loads(table_text("  - [q1, 0, L + 1, 0]\n  - [q2, 0, L**2, 0]\n")))
+    L, q2 = Symbol("L", real=True), Symbol("q2", real=True)
+    assert (found.product - (L + 1) * L**2 * sin(q2)).expand() == 0
+
+
+def test_one_turning_joint_and_two_slides() -> None:
+    """A cylindrical arm is singular where the hand is on the first axis: det J = d3."""
+    rows = "  - [q1, 0, 0, 0]\n  - [0, d2, 0, -90]\n  - [0, d3, 0, 0]\n"
+    found = singularities(symdh.loads(table_text(rows)))
+    assert abs(found.product) == abs(Symbol("d3", real=True))
+
+
+def test_factors_that_do_not_make_the_determinant_are_no_result(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    whole = HalfAngles.factors
+    monkeypatch.setattr(HalfAngles, "factors", lambda self, minor: whole(self, minor)[1:])
+    with pytest.raises(DerivationError, match="the factors of planar_2r do not make its determ"):
+        singularities(load(table_named("planar_2r")))
 
 
 def test_redundant_planar_arm() -> None:

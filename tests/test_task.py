@@ -331,6 +331,17 @@ def test_letters_of_the_table_are_not_used_twice() -> None:
     assert [angle.symbol.name for angle in vector.angles] == ["alpha", "beta", "gamma"]
 
 
+def test_a_skew_wrist_has_roll_pitch_and_yaw() -> None:
+    """No sequence of rotations about the axes of a frame is that of axes 30 degrees apart."""
+    rows = "".join(f"  - {{theta: q{k}, d: 0, a: 0, alpha: 30 deg}}\n" for k in (1, 2, 3))
+    text = f"name: skew\nconvention: standard\njoints:\n{rows}"
+    robot = loads_table(text).robot
+    vector = task_vector(robot)
+    assert vector.choice is Choice.WRIST
+    assert components(robot) == ["zyx1", "zyx2", "zyx3"]
+    check_against_the_oracle(analytic_jacobian(vector), read_arm(text), count=2)
+
+
 # -- singular representations ----------------------------------------------------------------------
 
 
@@ -389,6 +400,32 @@ def test_the_command_says_why_and_what(empty: Path, capsys: Capture) -> None:
     assert "B is singular where cos θ = 0, that is where r₃₁ is 1 or -1" in shown
     assert run(["task", str(BY_NAME["orion5"])]) == 0
     assert "six components and four joint variables" in capsys.readouterr().out
+
+
+def test_the_reason_for_each_choice_is_told(empty: Path, capsys: Capture) -> None:
+    for name, says in (
+        ("cartesian_ppp", "No joint turns the hand, so its position says all:"),
+        ("elbow_3r", "With three joints the position alone can be prescribed:"),
+    ):
+        assert run(["task", str(BY_NAME[name])]) == 0
+        assert says in " ".join(capsys.readouterr().out.split())
+    assert run(["task", str(BY_NAME["scara_rrpr"]), "--vector", "zyx"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "The task vector has the components that were asked for:" in shown
+    assert "B is never singular for this arm, in which always θ = 0." in shown
+
+
+def test_numbers_of_a_planar_arm_by_hand(empty: Path, capsys: Capture) -> None:
+    """The elbow at (1, 0), the second link and the tool straight up."""
+    text = TURNED.format(base="Tz(0)", tool="Tx(0.1)")
+    Path("arm.yaml").write_text(text.replace("name", "units: {length: m}\nname"))
+    settings = ("--set=q1=0", "--set=q2=90 deg", "--set=q3=0")
+    assert run(["task", "arm.yaml", "--vector", "x y phi", *settings]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "a₁ = 1 m, a₂ = 0.5 m, q₁ = 0, q₂ = 90° and q₃ = 0" in shown
+    rows = ("⎡ -0.6 -0.6 -0.1 ⎤", "⎢ 1 0 0 ⎥", "⎣ 1 1 1 ⎦")
+    for entry in ("x = 1 m", "y = 0.6 m", "φ = 90°", *rows):
+        assert entry in shown, entry
 
 
 def test_json_is_read_back(empty: Path, capsys: Capture) -> None:

@@ -17,11 +17,14 @@ from oracle import EXTENDED, Arithmetic, Arm, read_arm, read_arm_file
 from sympy import Expr, Float, Matrix, Rational, Symbol, cos, lambdify, sin, symbols
 
 import symdh
+from symdh.derivation import velocity
 from symdh.derivation.derive import derive
+from symdh.derivation.style import Style
 from symdh.errors import LimitError, TableError, UnsupportedError
 from symdh.kinematics.frame import Frame
 from symdh.kinematics.velocity import has_closed_jacobian, jacobian
 from symdh.render.latex import render_latex
+from symdh.render.terminal import render_chapters
 from symdh.table import parse_expression, parse_point
 from tools import require_tool
 
@@ -313,6 +316,19 @@ def test_no_line_of_the_handout_is_too_long(name: str, tmp_path: Path) -> None:
     log = (tmp_path / "arm.log").read_text(encoding="utf-8", errors="replace")
     assert ran.returncode == 0, log[-2000:]
     assert re.findall(r"Overfull \\hbox \([^)]*\)", log) == []
+
+
+def test_a_gear_and_a_joint_behind_the_frame_are_told() -> None:
+    """J_1 = 2 (-a1 sin 2q1, a1 cos 2q1, 0, 0, 0, 1), and the second joint does not move frame 1."""
+    rows = "  - [2*q1, 0, a1, 0]\n  - [q2, 0, a2, 0]\n"
+    robot = symdh.loads(
+        f"name: arm\nconvention: standard\ncolumns: [theta, d, a, alpha]\nrows:\n{rows}"
+    )
+    told = render_chapters([velocity.chapter(Style(robot), jacobian(robot, of=1), ())])
+    text = " ".join(told.split())
+    assert "J₁ = 2 [" in text
+    assert "⎣ 2 ⎦ Joint 2 stands behind frame 1: a column of zeros." in text
+    assert "τ₁ = -2 a₁ sin(2 q₁) f_x + 2 a₁ cos(2 q₁) f_y + 2 n_z τ₂ = 0" in text
 
 
 def test_statics_are_the_transpose() -> None:

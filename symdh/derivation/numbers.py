@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from sympy import Expr, ImmutableMatrix, Integer, Symbol
+from sympy import Expr, I, ImmutableMatrix, Integer, Symbol, nan, zoo
 
 from symdh.derivation.blocks import (
     Block,
@@ -91,13 +91,16 @@ def _put_in(style: Style, forward: ForwardKinematics, position: ImmutableMatrix)
     turning = angles(robot)
     lengths = {s: v for s, v in robot.values.items() if s not in turning}
     complete = missing(forward, robot.values) == []
-    reached = pose(robot, forward.start, forward.end, robot.values) if complete else None
+    reached = _reached(forward, robot.values) if complete else None
     steps = []
     for row in range(3):
         exact = position[row]
         if not exact.free_symbols & set(robot.values):
             continue
-        node = mapped(style.figures.write(exact.xreplace(lengths)), _Angles(style).put_in)
+        known = exact.xreplace(lengths)
+        if known.has(I, nan, zoo):
+            return []
+        node = mapped(style.figures.write(known), _Angles(style).put_in)
         forms = (node,) if reached is None else (node, _measured(style, reached[row][3]))
         steps.append(EntryStep(entry_name(row, 3), forms, None))
     if not steps:
@@ -158,9 +161,8 @@ def _numeric_pose(style: Style, forward: ForwardKinematics) -> list[Block]:
     if any(symbol not in robot.variables for symbol in zeros):
         return []
     values = {**robot.values, **{symbol: Integer(0) for symbol in zeros}}
-    try:
-        numbers = pose(robot, forward.start, forward.end, values)
-    except UnsupportedError:
+    numbers = _reached(forward, values)
+    if numbers is None:
         return []
     name = style.pose_name(forward.start, forward.end)
     lead: tuple[str | Node, ...] = ("In numbers",)
@@ -170,6 +172,14 @@ def _numeric_pose(style: Style, forward: ForwardKinematics) -> list[Block]:
     length = robot.units.length
     unit = f" (lengths in {length.value})" if length else ""
     return [Paragraph((*lead, f"{unit}:")), NamedMatrix((name,), rounded(numbers))]
+
+
+def _reached(forward: ForwardKinematics, values: Mapping[Symbol, Expr]) -> NumericMatrix | None:
+    """Return the numeric pose; None where the values make a length infinite or complex."""
+    try:
+        return pose(forward.robot, forward.start, forward.end, values)
+    except UnsupportedError:
+        return None
 
 
 def rounded(numbers: NumericMatrix) -> Matrix:

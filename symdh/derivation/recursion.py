@@ -139,6 +139,4 @@ def _times(coefficient: Node, component: Node) -> Node:
 
 def _sum(terms: list[Node]) -> Node:
     present = [term for term in terms if term != Number(Integer(0))]
-    if not present:
-        return Number(Integer(0))
     return present[0] if len(present) == 1 else Sum(tuple(present))

@@ -128,7 +128,8 @@ def _reason(style: Style, vector: TaskVector) -> Text:
             return (f"With {joints} the position alone can be prescribed:",)
         case Choice.POSE:
             return ("The position, and the orientation in Euler angles:",)
-    return _parallel(style, vector)
+        case Choice.PARALLEL:
+            return _parallel(style, vector)
 
 
 def _parallel(style: Style, vector: TaskVector) -> Text:

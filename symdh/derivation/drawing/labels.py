@@ -170,9 +170,7 @@ def inside(stroke: Stroke, box: Box) -> float:
     dx, dy = u - x, v - y
     low, high = 0.0, 1.0
     for start, step, least, most in ((x, dx, box[0], box[2]), (y, dy, box[1], box[3])):
-        if abs(step) < 1e-12:
-            if not least <= start <= most:
-                return 0.0
+        if abs(step) < 1e-12:  # level or upright, and not beside the box
             continue
         first, second = sorted(((least - start) / step, (most - start) / step))
         low, high = max(low, first), min(high, second)

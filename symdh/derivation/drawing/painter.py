@@ -87,9 +87,7 @@ def _nearer(view: View, a: Bar | Body, b: Bar | Body) -> float:
     if isinstance(a, Bar) and isinstance(b, Bar):
         found = plane.crossing(_stroke(view, a), _stroke(view, b))
         return 0.0 if found is None else _at(view, a, found[0]) - _at(view, b, found[1])
-    if isinstance(a, Bar) and isinstance(b, Body):
-        return -_nearer(view, b, a)
-    assert isinstance(a, Body)
+    assert isinstance(a, Body)  # bodies stand behind the bars in what is ordered
     centre = view.point(a.centre)
     if isinstance(b, Body):
         close = math.dist(centre, view.point(b.centre)) < a.size + b.size

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 from sympy import Symbol
 
-from symdh.derivation.drawing import space
 from symdh.derivation.drawing.numbers import Numbers, line, number
 from symdh.derivation.drawing.space import WORLD, Placement, Vector
 from symdh.kinematics.chain import segment
@@ -43,11 +42,6 @@ class Stretch:
     end: Vector
     motion: Motion
     row: int | None
-
-    @property
-    def length(self) -> float:
-        """The length."""
-        return space.distance(self.start, self.end)
 
 
 @dataclass(frozen=True, slots=True)

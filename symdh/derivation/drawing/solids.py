@@ -7,12 +7,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from symdh.derivation.drawing import space
-from symdh.derivation.drawing.shapes import Ellipse, Line, Pen, Point, Polygon, Shape
+from symdh.derivation.drawing.shapes import Ellipse, Line, Pen, Point, Polygon
 from symdh.derivation.drawing.space import Vector
 from symdh.derivation.drawing.view import View
 from symdh.robot import JointType
 
 Interval = tuple[float, float]
+
+#: What a body is drawn with.
+Outline = Line | Polygon | Ellipse
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +49,7 @@ class Body:
         """Return the middle of the end that the axis points to (1) or comes from (-1)."""
         return space.along(self.centre, side * self.half, self.axis)
 
-    def shapes(self, view: View) -> Iterator[Shape]:
+    def shapes(self, view: View) -> Iterator[Outline]:
         """Yield what is seen of it."""
         return self._cylinder(view) if self.type is JointType.REVOLUTE else self._box(view)
 
@@ -79,7 +82,7 @@ class Body:
             return math.inf, -math.inf
         return (-b - math.sqrt(root)) / a, (-b + math.sqrt(root)) / a
 
-    def _cylinder(self, view: View) -> Iterator[Shape]:
+    def _cylinder(self, view: View) -> Iterator[Outline]:
         near = 1.0 if view.depth(self.axis) >= 0 else -1.0
         first, second = view.point(self.end(-near)), view.point(self.end(near))
         right, up = view.point(self.axis)
@@ -102,7 +105,7 @@ class Body:
         yield Line(quad[2:], Pen.BODY)
         yield Ellipse(second, self.radius, flat, angle, Pen.BODY)
 
-    def _box(self, view: View) -> Iterator[Shape]:
+    def _box(self, view: View) -> Iterator[Outline]:
         edges = (
             (self.axis, self.half),
             (self.across, self.radius),
@@ -135,7 +138,7 @@ def outline(body: Body, view: View) -> list[Point]:
     return [point for shape in body.shapes(view) for point in _border(shape)]
 
 
-def _border(shape: Shape) -> list[Point]:
+def _border(shape: Outline) -> list[Point]:
     match shape:
         case Line(points=points) | Polygon(points=points):
             return list(points)
@@ -149,5 +152,3 @@ def _border(shape: Shape) -> list[Point]:
                 )
                 for t in turns
             ]
-        case _:
-            return []

@@ -45,14 +45,11 @@ def _smallest_block(
     matrix: Matrix, rows: tuple[int, ...], columns: tuple[int, ...]
 ) -> tuple[tuple[int, ...], tuple[int, ...]] | None:
     """Return rows and columns of a diagonal block, or None for a determinant that is zero."""
-    for size in range(1, len(columns) + 1):
-        for chosen in combinations(columns, size):
-            used = tuple(r for r in rows if any(matrix[r][c] for c in chosen))
-            if len(used) < size:
-                return None
-            if len(used) == size:
-                return used, chosen
-    return None
+    sets = (c for size in range(1, len(columns) + 1) for c in combinations(columns, size))
+    pairs = ((tuple(r for r in rows if any(matrix[r][c] for c in own)), own) for own in sets)
+    # All columns together have no more rows than there are.
+    used, chosen = next(pair for pair in pairs if len(pair[0]) <= len(pair[1]))
+    return (used, chosen) if len(used) == len(chosen) else None
 
 
 def _expanded(

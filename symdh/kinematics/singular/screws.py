@@ -51,10 +51,11 @@ def sparsest(ring: TrigRing, robot: Robot, of: Frame, at: Sequence[Expr] | None)
     """
     joints = moving_joints(robot, of)
     last = min(place(robot, of), robot.n)
-    points: list[Frame | None] = list(range(last + 1)) if at is None else [None]
+    points: dict[Frame | None, Frame | Sequence[Expr]] = (
+        {frame: frame for frame in range(last + 1)} if at is None else {None: at}
+    )
     levers = {
-        point: [lever(ring, robot, i, of, point if at is None else at) for i in joints]
-        for point in points
+        name: [lever(ring, robot, i, of, point) for i in joints] for name, point in points.items()
     }
     # In a long arm only frames in the middle can be sparse, and the others take long to work out.
     frames = range(last + 1) if len(joints) <= 6 else range(last // 2 - 1, last // 2 + 2)
@@ -81,14 +82,10 @@ def moving_joints(robot: Robot, of: Frame) -> list[int]:
     return [i for i, joint in joints if joint.variable is not None and moves(robot, i, of)]
 
 
-def lever(
-    ring: TrigRing, robot: Robot, i: int, of: Frame, point: Frame | Sequence[Expr] | None
-) -> Vector:
+def lever(ring: TrigRing, robot: Robot, i: int, of: Frame, point: Frame | Sequence[Expr]) -> Vector:
     """Return a point in the axis frame of joint `i`: the origin of a frame, or a point of `of`."""
     start = axis_frame(robot, i)
-    if point is None:
-        word = chain_word(robot, start, of)
-    elif point == "base" or point == "tool" or isinstance(point, int):
+    if point == "base" or point == "tool" or isinstance(point, int):
         word = chain_word(robot, start, point)
     else:
         word = chain_word(robot, start, of) + _offset(point)

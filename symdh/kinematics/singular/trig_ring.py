@@ -221,14 +221,9 @@ class TrigRing:
         angle, sign = _without_sign(constant)
         return self._pair(angle, sign)
 
-    def _pair(self, angle: Expr, times: int) -> tuple[Element, Element]:
+    def _pair(self, angle: Expr, sign: int) -> tuple[Element, Element]:
         k = self.angles.index(angle)
-        c, s = self.ring.gens[2 * k], self.ring.gens[2 * k + 1]
-        s = s if times > 0 else -s
-        pair = (c, s)
-        for _ in range(abs(times) - 1):
-            pair = (pair[0] * c - pair[1] * s, pair[1] * c + pair[0] * s)
-        return pair
+        return self.ring.gens[2 * k], sign * self.ring.gens[2 * k + 1]
 
 
 def _motions(robot: Robot) -> Iterable[Motion]:

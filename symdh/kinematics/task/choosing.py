@@ -121,16 +121,10 @@ class _Choosing:
     def _usual_angles(self) -> list[EulerAngle]:
         """Return roll, pitch and yaw, or ZYZ where these can be read off and those cannot.
 
-        The first sequence that is not singular in every pose.
+        Either could be singular in every pose only if all axes were parallel.
         """
-        usual = [named_sequence("zyx"), named_sequence("zyz")]
-        usual.sort(key=lambda sequence: read_off(self.word, sequence) is None)
-        for sequence in usual:
-            try:
-                return self._angles(sequence)
-            except UnsupportedError:
-                continue
-        return self._angles(named_sequence("xyz"))
+        usual = (named_sequence("zyx"), named_sequence("zyz"))
+        return self._angles(min(usual, key=lambda s: read_off(self.word, s) is None))
 
     def named(self, text: str) -> TaskVector:
         """Return the task vector that a text names."""
