@@ -7,8 +7,9 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
-from inverse_checks import CLOSED, DATA, derived, pose_of
+from inverse_checks import CLOSED, DATA, derived, pose_of, symbol
 from oracle import read_arm
 
 import symdh
@@ -22,7 +23,7 @@ from symdh.derivation.blocks import (
     Paragraph,
     ParameterTable,
 )
-from symdh.derivation.inverse import inverse_document
+from symdh.derivation.inverse import Solved, inverse_document
 from symdh.kinematics.inverse.inverse import inverse_kinematics
 from symdh.notation.names import split_name
 from symdh.notation.nodes import (
@@ -361,3 +362,57 @@ def test_printed_branches_are_those_of_the_numbers(length: str) -> None:
             assert abs(math.remainder(theta - answer.q[2], 2 * math.pi)) < 1e-9
             seen.add(branch)
     assert seen == {0, 1}
+
+
+# ---------------------------------------------------------------- the numbers of an example
+
+
+def solved_document(name: str, q: list[float]) -> tuple[Document, list[float]]:
+    table = DATA / "tables" / f"{name}.yaml"
+    found = inverse_kinematics(symdh.load(table))
+    goal = pose_of(read_arm(table.read_text()), np.array(q)).tolist()
+    solved = Solved(goal, found.solver({}).solve(goal))
+    return inverse_document(found, solved), list(solved.answers[0].q)
+
+
+def test_an_example_puts_the_numbers_in() -> None:
+    """rho and psi worked out with plain floats from the lengths of the table."""
+    document, (first, second) = solved_document("planar_2r", [0.5, 0.8])
+    lengths = symdh.load(DATA / "tables" / "planar_2r.yaml").values
+    a1, a2 = (float(lengths[symbol(name)]) for name in ("a1", "a2"))
+    y, x = a1 + a2 * math.cos(second), a2 * math.sin(second)
+    text = render_chapters(document.chapters[-1:], 200)
+    in_order(
+        text,
+        [
+            "An example",
+            "Joint 2:",
+            f"θ₂ = {math.degrees(second):.3f}°",
+            "Joint 1:",
+            f"ρ₁ = {math.hypot(x, y):.4f}",
+            f"ψ₁ = {math.degrees(math.atan2(y, x)):.3f}°",
+            f"θ₁ = {math.degrees(first):.3f}°",
+        ],
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "q"),
+    [
+        ("puma560", [0.3, 0.4, 0.5, 0.6, 0.7, 0.8]),
+        ("ur5", [0.3, 0.4, 0.5, 0.6, 0.7, 0.8]),
+        ("minimover_5r", [0.3, 0.4, 0.5, 0.6, 0.7]),
+        ("scara_rrpr", [0.3, 0.4, 0.1, 0.6]),
+    ],
+)
+def test_symbols_of_an_example_are_those_of_the_derivation(name: str, q: list[float]) -> None:
+    document, _ = solved_document(name, q)
+    assert document.chapters[-1].title == "An example"
+    assert Reader().read(document) == []
+
+
+def test_a_branch_without_a_name_is_called_as_in_the_derivation() -> None:
+    document, _ = solved_document("minimover_5r", [0.3, 0.4, 0.5, 0.6, 0.7])
+    numbers = render_chapters(document.chapters[-2:-1], 200)
+    assert "1: θ₁⁽¹⁾, elbow up." in numbers
+    assert "theta" not in numbers
