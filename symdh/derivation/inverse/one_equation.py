@@ -6,7 +6,7 @@ from sympy import Expr, Integer, atan2, pi, sqrt
 
 from symdh.derivation.blocks import Block, Display, EntryStep, EntrySteps, Paragraph
 from symdh.derivation.inverse.formulas import equation, plus
-from symdh.derivation.inverse.remarks import free, stretched
+from symdh.derivation.inverse.remarks import empty_where, free, stretched
 from symdh.derivation.inverse.telling import Telling, solution
 from symdh.kinematics.inverse.solution import Rule
 from symdh.notation.nodes import Call, Negative, Product, Sum
@@ -60,6 +60,7 @@ def arc(telling: Telling) -> list[Block]:
                 *(stretched(telling), "; beyond that the goal is out of reach."),
             )
         ),
+        *empty_where(telling, b if of_cosine else a),
     ]
 
 
