@@ -12,7 +12,7 @@ from symdh.derivation.blocks import (
     Paragraph,
     Text,
 )
-from symdh.derivation.inverse.arm import link_matrices, the_arm
+from symdh.derivation.inverse.arm import gathered, link_matrices, the_arm
 from symdh.derivation.inverse.example import example
 from symdh.derivation.inverse.given import given as what_is_given
 from symdh.derivation.inverse.known_parts import is_told
@@ -68,10 +68,12 @@ def _derivation(found: InverseKinematics, writer: Writer) -> list[Chapter]:
     links = link_matrices(form, writer)
     formulas = [node for chapter in steps for node in _formulas(chapter.blocks)]
     meanings = legend(style, [*formulas, *(each.matrix for each in links.matrices)])
+    told: list[Block] = [] if meanings is None else [meanings]
+    told += gathered(form, writer)
     return [
         the_arm(form, writer),
         given,
-        Chapter("The links", (*([] if meanings is None else [meanings]), links)),
+        Chapter("The links", (*told, links)),
         *steps,
         solutions(form, writer),
     ]

@@ -108,7 +108,12 @@ def _reduced(telling: Telling) -> tuple[Expr, Expr, Expr, bool]:
     if turned:
         a, b, c = -a, -b, -c
     common = a.gcd(b)
-    if len(common) != 1 or not ring.is_constant(common) or common in (ring.one, -ring.one):
+    lengths = len(common) == 1 and all(
+        ring.letters[k].is_Symbol and k in ring.first_lengths
+        for k, power in enumerate(common.LM)
+        if power
+    )
+    if not lengths or common in (ring.one, -ring.one):
         short_a, short_b, short_c = telling.linear((a, b, c))
         return short_a, short_b, -short_c, turned
     if common.LC < 0:
