@@ -605,3 +605,14 @@ def test_what_fits_is_not_broken() -> None:
 
 def test_nothing_breaks_into_nothing() -> None:
     assert break_lines([], 10.0) == []
+
+
+def test_terms_with_leading_symbols_stand_in_front_squares_before_products() -> None:
+    """What a goal gives, in the order asked for; the arm's own lengths behind it."""
+    w_x, w_y = (Symbol(name, real=True) for name in ("w_x", "w_y"))
+    a1, theta1 = ARM.joints[0].a, ARM.joints[0].variable
+    assert theta1 is not None
+    leading = Notation(ARM, leading=("w_x", "w_y"))
+    whole = a1**2 + w_y**2 + w_x**2 - 2 * a1 * w_x * cos(theta1)
+    assert plain(whole, leading) == "w_x**2 + w_y**2 - 2*a1*w_x*c1 + a1**2"
+    assert plain(w_y * cos(theta1) + w_x * sin(theta1) - a1, leading) == "w_x*s1 + w_y*c1 - a1"

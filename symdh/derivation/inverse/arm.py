@@ -13,6 +13,7 @@ from symdh.derivation.blocks import (
 )
 from symdh.derivation.inverse.names import Writer
 from symdh.derivation.table import chapter as table_chapter
+from symdh.kinematics.chain import link_word
 from symdh.kinematics.inverse.solution import ClosedForm
 from symdh.motion import transform
 
@@ -34,6 +35,19 @@ def _letters(form: ClosedForm, writer: Writer) -> list[Block]:
         for letter, meaning in meanings.items()
     )
     return [Paragraph(("Letters stand for the numbers of the table:",)), EntrySteps(rows)]
+
+
+def gathered(form: ClosedForm, writer: Writer) -> list[Block]:
+    """Say of rows at the ends of the chain that do not move which link they are part of."""
+    arm, style = form.arm, writer.style
+    notes: list[Block] = []
+    for row, word in enumerate(arm.rows, start=1):
+        outside = row < arm.moving[0] or row > arm.moving[-1]
+        if outside and not word and link_word(arm.robot, row):
+            into = arm.moving[0] if row < arm.moving[0] else arm.moving[-1]
+            told = (style.link_name(row), " does not move and is made part of ")
+            notes.append(Paragraph((*told, style.link_name(into), ".")))
+    return notes
 
 
 def link_matrices(form: ClosedForm, writer: Writer) -> MatrixRow:

@@ -12,7 +12,8 @@ from symdh.derivation.blocks import (
     Paragraph,
     Text,
 )
-from symdh.derivation.inverse.arm import link_matrices, the_arm
+from symdh.derivation.inverse.arm import gathered, link_matrices, the_arm
+from symdh.derivation.inverse.example import example
 from symdh.derivation.inverse.given import given as what_is_given
 from symdh.derivation.inverse.known_parts import is_told
 from symdh.derivation.inverse.names import Writer, goal_letters
@@ -24,7 +25,6 @@ from symdh.derivation.legend import legend
 from symdh.derivation.style import Naming, Style
 from symdh.kinematics.inverse.branches import branches_of
 from symdh.kinematics.inverse.inverse import InverseKinematics, Method
-from symdh.kinematics.inverse.solution import ClosedForm
 from symdh.notation.nodes import (
     Node,
 )
@@ -44,28 +44,36 @@ def inverse_document(
         How poses are written.
     """
     robot = found.robot
+    writer: Writer | None = None
     chapters: list[Chapter] = []
     if found.method is not Method.CLOSED_FORM:
         chapters.append(without_closed_form(found))
     if found.form is not None and found.method is not Method.LEAST_SQUARES:
-        chapters += _derivation(found, found.form, Naming(naming))
+        form = found.form
+        style = Style(form.arm.robot, naming=Naming(naming), leading=goal_letters(form))
+        writer = Writer(style, form, branches_of(form))
+        chapters += _derivation(found, writer)
     if solved is not None:
         chapters.append(numbers_chapter(found, solved))
+        if writer is not None and solved.answers and found.method is Method.CLOSED_FORM:
+            chapters.append(example(writer, solved))
     subtitle: Text = ("Inverse kinematics",)
     return Document(robot.title or robot.name, subtitle, tuple(chapters))
 
 
-def _derivation(found: InverseKinematics, form: ClosedForm, naming: Naming) -> list[Chapter]:
-    style = Style(form.arm.robot, naming=naming, leading=goal_letters(form))
-    writer = Writer(style, form, branches_of(form))
+def _derivation(found: InverseKinematics, writer: Writer) -> list[Chapter]:
+    form, style = writer.form, writer.style
+    given = what_is_given(found, form, writer)
     steps = [step_chapter(writer, step) for step in form.steps if is_told(form, step)]
     links = link_matrices(form, writer)
     formulas = [node for chapter in steps for node in _formulas(chapter.blocks)]
     meanings = legend(style, [*formulas, *(each.matrix for each in links.matrices)])
+    told: list[Block] = [] if meanings is None else [meanings]
+    told += gathered(form, writer)
     return [
         the_arm(form, writer),
-        what_is_given(found, form, writer),
-        Chapter("The links", (*([] if meanings is None else [meanings]), links)),
+        given,
+        Chapter("The links", (*told, links)),
         *steps,
         solutions(form, writer),
     ]

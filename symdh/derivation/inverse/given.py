@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sympy import Expr, Integer, Symbol
+from sympy import Add, Expr, Integer, Symbol
 
 from symdh.derivation.blocks import (
     Block,
@@ -159,8 +159,9 @@ def _shifted(form: ClosedForm, writer: Writer) -> list[Block]:
         # The position stands in front, where a reader looks for it.
         written = [Name(f"p_{'xyz'[axis]}"), *(writer.expression(t) for t in terms if t != 0)]
         value = written[0] if len(written) == 1 else Sum(tuple(written))
-        name = writer.expression(Symbol(ring.goal_position_names[axis], real=True))
-        rows.append(EntryStep(name, (value,), None))
+        point = Symbol(ring.goal_position_names[axis], real=True)
+        writer.work("", point, Symbol(f"p_{'xyz'[axis]}", real=True) + Add(*terms))
+        rows.append(EntryStep(writer.expression(point), (value,), None))
     ends = []
     if any(not part.is_zero for part in arm.front):
         ends.append(writer.style.link_name(arm.moving[0]))
@@ -201,6 +202,7 @@ def _seen_from_the_hand(form: ClosedForm, writer: Writer) -> list[Block]:
             w = Symbol(ring.goal_position_names[r], real=True)
             value = value - Symbol(f"r_{r + 1}{c + 1}", real=True) * w
         if first + c in used_here:
+            writer.work("", ring.letters[first + c], value)
             name = writer.expression(ring.letters[first + c])
             rows.append(EntryStep(name, (writer.expression(value),), None))
     if not rows:

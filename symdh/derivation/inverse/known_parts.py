@@ -74,6 +74,10 @@ def named_parts(telling: Telling) -> list[Block]:
         for k, e in step.definitions
         if k in shown
     ]
+    for k, element in step.definitions:
+        if k in shown:
+            ring = writer.form.ring
+            writer.work(telling.title, ring.letters[k], ring.expression(element))
     name = writer.part_name(step.part)
     equation = writer.matrix_equation(source)
     assert isinstance(equation, nodes.Equation)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import dataclass
 
 from sympy import Add, Expr, Integer, Mul, Symbol
 
@@ -39,6 +40,30 @@ def goal_letters(form: ClosedForm) -> tuple[str, ...]:
     return (*(f"k_{count}" for count in range(1, 100)), *names)
 
 
+@dataclass(frozen=True)
+class Worked:
+    """A part of the derivation that has a number once a goal is given.
+
+    Attributes
+    ----------
+    title : str
+        Of the chapter that finds it; empty for what is found before the first.
+    name : Node
+    expression : Expr
+        In joint variables, parameters, entries of the goal, and what was worked out before.
+    turns : bool
+        Whether it is an angle.
+    symbol : Symbol or None
+        By which later parts refer to it.
+    """
+
+    title: str
+    name: Node
+    expression: Expr
+    turns: bool = False
+    symbol: Symbol | None = None
+
+
 class Writer:
     """Writes the elements, unknowns and matrices of one solution.
 
@@ -51,6 +76,8 @@ class Writer:
         What the branches of the steps are called.
     told : dict of Source to str
         The title of the step in which entries were compared for the first time.
+    worked : list of Worked
+        What a worked example gives a number for, in order.
     """
 
     def __init__(self, style: Style, form: ClosedForm, branches: Branches) -> None:
@@ -58,6 +85,7 @@ class Writer:
         self.form = form
         self.branches = branches
         self.told: dict[Source, str] = {}
+        self.worked: list[Worked] = []
         self._ring = form.ring
         robot = form.arm.robot
         self._used = {s.name for s in (*robot.parameters, *robot.variables)}
@@ -74,12 +102,18 @@ class Writer:
         """Write an element."""
         return self.expression(self._ring.expression(element))
 
-    def introduction(self, letter: Symbol, element: Element) -> EntryStep:
+    def introduction(self, letter: Symbol, element: Element, title: str) -> EntryStep:
         """Return what a letter stands for; from now on it may be used."""
         by = self._divisors.get(letter)
+        whole = self._ring.expression(element)
+        self.work(title, letter, whole if by is None else whole / self._ring.expression(by))
         node = self.nested(element) if by is None else self.quotient_of(element, by)
         self._introduced[element] = letter
         return EntryStep(self.expression(letter), (node,), None)
+
+    def work(self, title: str, symbol: Symbol, expression: Expr, turns: bool = False) -> None:
+        """Keep what a symbol stands for, for a worked example."""
+        self.worked.append(Worked(title, self.expression(symbol), expression, turns, symbol))
 
     def nested(self, element: Element) -> Node:
         """Write an element with common factors taken out: ``(r_13 c_1 + r_23 s_1) c_23 + ..``."""

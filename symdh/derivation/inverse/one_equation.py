@@ -6,7 +6,7 @@ from sympy import Expr, Integer, atan2, pi, sqrt
 
 from symdh.derivation.blocks import Block, Display, EntryStep, EntrySteps, Paragraph
 from symdh.derivation.inverse.formulas import equation, plus
-from symdh.derivation.inverse.remarks import free, stretched
+from symdh.derivation.inverse.remarks import empty_where, free, stretched
 from symdh.derivation.inverse.telling import Telling, solution
 from symdh.kinematics.inverse.solution import Rule
 from symdh.notation.nodes import Call, Negative, Product, Sum
@@ -60,6 +60,7 @@ def arc(telling: Telling) -> list[Block]:
                 *(stretched(telling), "; beyond that the goal is out of reach."),
             )
         ),
+        *empty_where(telling, b if of_cosine else a),
     ]
 
 
@@ -107,7 +108,12 @@ def _reduced(telling: Telling) -> tuple[Expr, Expr, Expr, bool]:
     if turned:
         a, b, c = -a, -b, -c
     common = a.gcd(b)
-    if len(common) != 1 or not ring.is_constant(common) or common in (ring.one, -ring.one):
+    lengths = len(common) == 1 and all(
+        ring.letters[k].is_Symbol and k in ring.first_lengths
+        for k, power in enumerate(common.LM)
+        if power
+    )
+    if not lengths or common in (ring.one, -ring.one):
         short_a, short_b, short_c = telling.linear((a, b, c))
         return short_a, short_b, -short_c, turned
     if common.LC < 0:

@@ -11,6 +11,7 @@ from symdh.derivation.inverse.formulas import listed
 from symdh.derivation.inverse.singular import around, lined_up_about, pair_that_serves
 from symdh.derivation.inverse.telling import Telling
 from symdh.kinematics.inverse.posture import Part
+from symdh.kinematics.inverse.ring import Element
 from symdh.kinematics.inverse.solution import Rule
 from symdh.notation.nodes import Generic
 
@@ -122,6 +123,20 @@ def nothing_said(telling: Telling, where: Sequence[Inline]) -> list[Block]:
         text = ". Another pair of entries may serve there; where none does, "
         return [Paragraph((*what, text, unknown, " is free: ", *meaning_of_free(telling)))]
     return [Paragraph((*what, " and ", unknown, " is free; ", *meaning_of_free(telling)))]
+
+
+def empty_where(telling: Telling, factor: Element) -> list[Block]:
+    """Say where one equation says nothing: where what stands before the unknown is zero."""
+    writer, ring = telling.writer, telling.writer.form.ring
+    if ring.is_constant(factor):
+        return []
+    if len(factor) == 1:  # lengths are not zero
+        powers = (0 if k in ring.first_lengths else power for k, power in enumerate(factor.LM))
+        factor = ring.ring.from_dict({tuple(powers): ring.ring.domain.one})
+    shown = writer.element(-factor if writer.is_negative(factor) else factor)
+    other = "; there another entry may." if telling.step.alternatives else "."
+    unknown = writer.unknown(telling.step.unknown)
+    return [Paragraph(("Where ", shown, " is zero, this says nothing of ", unknown, other))]
 
 
 def _middle(telling: Telling) -> tuple[int, int] | None:

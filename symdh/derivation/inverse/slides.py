@@ -6,22 +6,18 @@ from sympy import Integer, sqrt
 
 from symdh.derivation.blocks import Block, Display, EntryStep, Paragraph
 from symdh.derivation.inverse.formulas import equation
+from symdh.derivation.inverse.remarks import empty_where
 from symdh.derivation.inverse.telling import Telling, solution
 from symdh.notation.nodes import Fraction, Negative, Sum
 
 
 def slide(telling: Telling) -> list[Block]:
     """Solve ``A q + C = 0``."""
-    writer, ring = telling.writer, telling.writer.form.ring
+    writer = telling.writer
     a, c = telling.step.coefficients
     row = EntryStep(writer.unknown(telling.step.unknown), (writer.quotient_of(-c, a),), None)
     blocks = [] if telling.has_written(row) else solution(row)
-    if not ring.is_constant(a):
-        factor = writer.element(-a if writer.is_negative(a) else a)
-        zero = ("Where ", factor, " is zero, this says nothing of ", row.name)
-        other = "; there another entry may." if telling.step.alternatives else "."
-        blocks.append(Paragraph((*zero, other)))
-    return blocks
+    return [*blocks, *empty_where(telling, a)]
 
 
 def slide_square(telling: Telling) -> list[Block]:

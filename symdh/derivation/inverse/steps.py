@@ -7,7 +7,7 @@ from collections.abc import Callable
 from symdh.derivation.blocks import Block, Chapter
 from symdh.derivation.inverse.half_angle import half_angle
 from symdh.derivation.inverse.known_parts import known_sum, named_parts
-from symdh.derivation.inverse.names import Writer
+from symdh.derivation.inverse.names import Worked, Writer
 from symdh.derivation.inverse.one_equation import arc, ratio, sine_cosine
 from symdh.derivation.inverse.origin import origin
 from symdh.derivation.inverse.remarks import named_branches
@@ -21,6 +21,10 @@ def step_chapter(writer: Writer, step: Step) -> Chapter:
     """Return the chapter on one step."""
     title = _title(writer, step)
     blocks = _blocks(Telling(writer, title, step))
+    if not step.definitions:
+        ring, unknown = writer.form.ring, step.unknown
+        expression, turns = ring.unknown_expression(unknown), ring.is_angle(unknown)
+        writer.worked.append(Worked(title, writer.unknown(unknown), expression, turns))
     return Chapter(f"{title[0].upper()}{title[1:]}", tuple(blocks))
 
 

@@ -108,7 +108,8 @@ class Telling:
         """Give what the new names stand for, once."""
         if not self.new:
             return []
-        rows = [self.writer.introduction(letter, element) for letter, element in self.new]
+        introduction = self.writer.introduction
+        rows = [introduction(letter, element, self.title) for letter, element in self.new]
         self.new = []
         letters = "a letter" if len(rows) == 1 else "letters"
         return [Paragraph((f"With {letters} for what is known,",)), EntrySteps(tuple(rows))]
@@ -144,6 +145,8 @@ class Telling:
             EntryStep(write(y), (Product((write(rho), Call("sin", (angle,)))),), None),
             EntryStep(write(x), (Product((write(rho), Call("cos", (angle,)))),), None),
         )
+        self.writer.work(self.title, rho, sqrt(y**2 + x**2))
+        self.writer.work(self.title, psi, atan2(y, x, evaluate=False), turns=True)
         values = (
             EntryStep(write(rho), (write(sqrt(y**2 + x**2)),), None),
             EntryStep(angle, (write(atan2(y, x, evaluate=False)),), None),

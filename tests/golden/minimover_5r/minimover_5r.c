@@ -729,8 +729,7 @@ static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search 
     const double r22 = T[5];
     const double r23 = T[6];
     const double py = T[7];
-    const double r31 = T[8];
-    const double r32 = T[9];
+    const double r33 = T[10];
     const double pz = T[11];
     const double t1 = (pz * pz) - 0.0648;
 
@@ -745,6 +744,13 @@ static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search 
         const double c1 = x1.c[k1];
         const double s1 = x1.s[k1];
 
+        /* theta2 + theta3 + theta4: two equations A s + B c + C = 0 */
+        minimover_5r_ik_unknown x234 = minimover_5r_ik_open;
+        minimover_5r_ik_pair(&x234, 0.0, -1.0, r33, -1.0, 0.0, (c1 * r13) + (s1 * r23), 1.0);
+        minimover_5r_ik_turn(&x234, found->start[1] + found->start[2] + found->start[3], 3U, found);
+        const double c234 = x234.c[0];
+        const double s234 = x234.s[0];
+
         /* theta5: two equations A s + B c + C = 0 */
         minimover_5r_ik_unknown x5 = minimover_5r_ik_open;
         minimover_5r_ik_pair(&x5, -1.0, 0.0, (c1 * r21) - (s1 * r11), 0.0, -1.0,
@@ -752,18 +758,10 @@ static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search 
         minimover_5r_ik_turn(&x5, found->start[4], 4U, found);
         const double c5 = x5.c[0];
         const double s5 = x5.s[0];
-        const double e11 = (s1 * ((c5 * r21) - (s5 * r22))) + (c1 * ((c5 * r11) - (s5 * r12)));
-
-        /* theta2 + theta3 + theta4: two equations A s + B c + C = 0 */
-        minimover_5r_ik_unknown x234 = minimover_5r_ik_open;
-        minimover_5r_ik_pair(&x234, 0.0, -1.0, e11, -1.0, 0.0, (s5 * r32) - (c5 * r31), 1.0);
-        minimover_5r_ik_turn(&x234, found->start[1] + found->start[2] + found->start[3], 3U, found);
-        const double c234 = x234.c[0];
-        const double s234 = x234.s[0];
         const double angle1 = atan2(s1, c1);
+        const double angle234 = atan2(s234, c234);
         const double angle5 = atan2(s5, c5);
         const double ex = (c1 * px) + (s1 * py);
-        const double angle234 = atan2(s234, c234);
 
         /* theta3: A s + B c + C = 0 */
         minimover_5r_ik_unknown x3 = minimover_5r_ik_open;
@@ -793,7 +791,7 @@ static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search 
             const double angle2 = atan2(s2, c2);
 
             const double q[5] = {angle1, angle2, angle3, angle234 - (angle2 + angle3), angle5};
-            minimover_5r_ik_propose(found, q, x1.free_joints | x5.free_joints | x234.free_joints |
+            minimover_5r_ik_propose(found, q, x1.free_joints | x234.free_joints | x5.free_joints |
                 x3.free_joints | x2.free_joints);
         }
     }

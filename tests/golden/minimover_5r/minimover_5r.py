@@ -714,8 +714,7 @@ def _ik_branches(
     r22 = _goal[5]
     r23 = _goal[6]
     py = _goal[7]
-    r31 = _goal[8]
-    r32 = _goal[9]
+    r33 = _goal[10]
     pz = _goal[11]
     t1 = abs(L1)
     t2 = abs(L2)
@@ -733,17 +732,16 @@ def _ik_branches(
     if x1 is None or x1[0] < 1e-3:
         x1 = _ik_line(x1, -r13, r23, 0.0, 2.0, 2.0)
     for c1, s1, free1 in _ik_turns(x1, _start[0], 0, _search):
+        # theta2 + theta3 + theta4: two equations A s + B c + C = 0
+        x234 = _ik_pair(None, 0.0, -1.0, r33, -1.0, 0.0, c1 * r13 + s1 * r23, 1.0)
+        c234, s234, free234 = _ik_turn(x234, _start[1] + _start[2] + _start[3], 3, _search)
         # theta5: two equations A s + B c + C = 0
         x5 = _ik_pair(None, -1.0, 0.0, c1 * r21 - s1 * r11, 0.0, -1.0, c1 * r22 - s1 * r12, 1.0)
         c5, s5, free5 = _ik_turn(x5, _start[4], 4, _search)
-        e11 = s1 * (c5 * r21 - s5 * r22) + c1 * (c5 * r11 - s5 * r12)
-        # theta2 + theta3 + theta4: two equations A s + B c + C = 0
-        x234 = _ik_pair(None, 0.0, -1.0, e11, -1.0, 0.0, s5 * r32 - c5 * r31, 1.0)
-        c234, s234, free234 = _ik_turn(x234, _start[1] + _start[2] + _start[3], 3, _search)
         angle1 = math.atan2(s1, c1)
+        angle234 = math.atan2(s234, c234)
         angle5 = math.atan2(s5, c5)
         ex = c1 * px + s1 * py
-        angle234 = math.atan2(s234, c234)
         # theta3: A s + B c + C = 0
         x3 = _ik_line(None, 0.0, -t5, t6 + ex * ex, t7, t10)
         for c3, s3, free3 in _ik_turns(x3, _start[2], 2, _search):
@@ -761,7 +759,7 @@ def _ik_branches(
             angle3 = math.atan2(s3, c3)
             angle2 = math.atan2(s2, c2)
             q = (angle1, angle2, angle3, angle234 - (angle2 + angle3), angle5)
-            yield q, free1 | free5 | free234 | free3 | free2
+            yield q, free1 | free234 | free5 | free3 | free2
 
 
 #: How well an equation is conditioned; A, B and C, and the size of all three.

@@ -797,6 +797,8 @@ static void puma560_ik_branches(const double T[16], puma560_ik_search *found)
         const double t5 = (c1 * r11) + (s1 * r21);
         const double t6 = (c1 * r12) + (s1 * r22);
         const double t7 = (c1 * r13) + (s1 * r23);
+        const double e21 = (c1 * r21) - (s1 * r11);
+        const double e22 = (c1 * r22) - (s1 * r12);
         const double e23 = (c1 * r23) - (s1 * r13);
 
         /* theta3: A s + B c + C = 0 */
@@ -829,9 +831,9 @@ static void puma560_ik_branches(const double T[16], puma560_ik_search *found)
             const double angle2 = atan2(s2, c2);
             const double c23 = (c2 * c3) - (s2 * s3);
             const double s23 = (s2 * c3) + (c2 * s3);
+            const double e11 = (r31 * s23) + (c23 * t5);
+            const double e12 = (r32 * s23) + (c23 * t6);
             const double e13 = (r33 * s23) + (c23 * t7);
-            const double e31 = (r31 * c23) - (s23 * t5);
-            const double e32 = (r32 * c23) - (s23 * t6);
             const double e33 = (r33 * c23) - (s23 * t7);
 
             /* theta4: A s + B c + C = 0 */
@@ -854,17 +856,8 @@ static void puma560_ik_branches(const double T[16], puma560_ik_search *found)
 
                 /* theta6: two equations A s + B c + C = 0 */
                 puma560_ik_unknown x6 = puma560_ik_open;
-                puma560_ik_pair(&x6, 0.0, -s5, e31, s5, 0.0, e32, 1.0);
-                if (x6.score < 1e-3) {
-                    const double t12 = c4 * c5;
-                    puma560_ik_pair(&x6, s4, -t12, (r31 * s23) + (c23 * t5), t12, s4,
-                        (r32 * s23) + (c23 * t6), 4.0);
-                }
-                if (x6.score < 1e-3) {
-                    const double t13 = s4 * c5;
-                    puma560_ik_pair(&x6, -c4, -t13, (c1 * r21) - (s1 * r11), t13, -c4,
-                        (c1 * r22) - (s1 * r12), 4.0);
-                }
+                puma560_ik_pair(&x6, 1.0, 0.0, (s4 * e11) - (c4 * e21), 0.0, 1.0,
+                    (s4 * e12) - (c4 * e22), 1.0);
                 puma560_ik_turn(&x6, found->start[5], 5U, found);
                 const double c6 = x6.c[0];
                 const double s6 = x6.s[0];

@@ -847,6 +847,8 @@ def _ik_branches(
         t22 = c1 * r11 + s1 * r21
         t23 = c1 * r12 + s1 * r22
         t24 = c1 * r13 + s1 * r23
+        e21 = c1 * r21 - s1 * r11
+        e22 = c1 * r22 - s1 * r12
         e23 = c1 * r23 - s1 * r13
         # theta3: A s + B c + C = 0
         x3 = _ik_line(None, t9, -t10, t13, t15, t18)
@@ -871,9 +873,9 @@ def _ik_branches(
             angle2 = math.atan2(s2, c2)
             c23 = c2 * c3 - s2 * s3
             s23 = s2 * c3 + c2 * s3
+            e11 = r31 * s23 + c23 * t22
+            e12 = r32 * s23 + c23 * t23
             e13 = r33 * s23 + c23 * t24
-            e31 = r31 * c23 - s23 * t22
-            e32 = r32 * c23 - s23 * t23
             e33 = r33 * c23 - s23 * t24
             # theta4: A s + B c + C = 0
             x4 = _ik_line(None, e13, -e23, 0.0, 2.0, 2.0)
@@ -884,15 +886,8 @@ def _ik_branches(
                 x5 = _ik_pair(None, 0.0, -1.0, e33, 1.0, 0.0, c4 * e13 + s4 * e23, 1.0)
                 c5, s5, free5 = _ik_turn(x5, _start[4], 4, _search)
                 # theta6: two equations A s + B c + C = 0
-                x6 = _ik_pair(None, 0.0, -s5, e31, s5, 0.0, e32, 1.0)
-                if x6 is None or x6[0] < 1e-3:
-                    t33 = c4 * c5
-                    x6 = _ik_pair(x6, s4, -t33, r31 * s23 + c23 * t22, t33, s4,
-                        r32 * s23 + c23 * t23, 4.0)
-                if x6 is None or x6[0] < 1e-3:
-                    t34 = s4 * c5
-                    x6 = _ik_pair(x6, -c4, -t34, c1 * r21 - s1 * r11, t34, -c4, c1 * r22 - s1 * r12,
-                        4.0)
+                x6 = _ik_pair(None, 1.0, 0.0, s4 * e11 - c4 * e21, 0.0, 1.0, s4 * e12 - c4 * e22,
+                    1.0)
                 c6, s6, free6 = _ik_turn(x6, _start[5], 5, _search)
                 angle4 = math.atan2(s4, c4)
                 angle5 = math.atan2(s5, c5)

@@ -810,6 +810,8 @@ static void stanford_ik_branches(const double T[16], stanford_ik_search *found)
         const double t5 = (c1 * r11) + (s1 * r21);
         const double t6 = (c1 * r12) + (s1 * r22);
         const double t7 = (c1 * r13) + (s1 * r23);
+        const double e21 = (c1 * r21) - (s1 * r11);
+        const double e22 = (c1 * r22) - (s1 * r12);
         const double e23 = (c1 * r23) - (s1 * r13);
 
         /* theta2: A s + B c + C = 0 */
@@ -826,9 +828,9 @@ static void stanford_ik_branches(const double T[16], stanford_ik_search *found)
             stanford_ik_shift(&x3, found->start[2], 2U, found);
             const double x3_ = x3.c[0];
             const double angle2 = atan2(s2, c2);
+            const double e11 = (c2 * t5) - (s2 * r31);
+            const double e12 = (c2 * t6) - (s2 * r32);
             const double e13 = (c2 * t7) - (s2 * r33);
-            const double e31 = (c2 * r31) + (s2 * t5);
-            const double e32 = (c2 * r32) + (s2 * t6);
             const double e33 = (c2 * r33) + (s2 * t7);
 
             /* theta4: A s + B c + C = 0 */
@@ -851,17 +853,8 @@ static void stanford_ik_branches(const double T[16], stanford_ik_search *found)
 
                 /* theta6: two equations A s + B c + C = 0 */
                 stanford_ik_unknown x6 = stanford_ik_open;
-                stanford_ik_pair(&x6, 0.0, s5, e31, -s5, 0.0, e32, 1.0);
-                if (x6.score < 1e-3) {
-                    const double t8 = c4 * c5;
-                    stanford_ik_pair(&x6, s4, -t8, (c2 * t5) - (s2 * r31), t8, s4,
-                        (c2 * t6) - (s2 * r32), 4.0);
-                }
-                if (x6.score < 1e-3) {
-                    const double t9 = s4 * c5;
-                    stanford_ik_pair(&x6, -c4, -t9, (c1 * r21) - (s1 * r11), t9, -c4,
-                        (c1 * r22) - (s1 * r12), 4.0);
-                }
+                stanford_ik_pair(&x6, -1.0, 0.0, (c4 * e21) - (s4 * e11), 0.0, -1.0,
+                    (c4 * e22) - (s4 * e12), 1.0);
                 stanford_ik_turn(&x6, found->start[5], 5U, found);
                 const double c6 = x6.c[0];
                 const double s6 = x6.s[0];

@@ -792,6 +792,8 @@ def _ik_branches(
         t9 = c1 * r11 + s1 * r21
         t10 = c1 * r12 + s1 * r22
         t11 = c1 * r13 + s1 * r23
+        e21 = c1 * r21 - s1 * r11
+        e22 = c1 * r22 - s1 * r12
         e23 = c1 * r23 - s1 * r13
         # theta2: A s + B c + C = 0
         x2 = _ik_line(None, t3, -t7, 0.0, t8, t8)
@@ -800,9 +802,9 @@ def _ik_branches(
             x3 = _ik_slide(None, -1.0, c2 * t3 + s2 * t7, 1.0)
             x3_, free3 = _ik_shift(x3, _start[2], 2, _search)
             angle2 = math.atan2(s2, c2)
+            e11 = c2 * t9 - s2 * r31
+            e12 = c2 * t10 - s2 * r32
             e13 = c2 * t11 - s2 * r33
-            e31 = c2 * r31 + s2 * t9
-            e32 = c2 * r32 + s2 * t10
             e33 = c2 * r33 + s2 * t11
             # theta4: A s + B c + C = 0
             x4 = _ik_line(None, e13, -e23, 0.0, 2.0, 2.0)
@@ -813,15 +815,8 @@ def _ik_branches(
                 x5 = _ik_pair(None, 0.0, -1.0, e33, -1.0, 0.0, c4 * e13 + s4 * e23, 1.0)
                 c5, s5, free5 = _ik_turn(x5, _start[4], 4, _search)
                 # theta6: two equations A s + B c + C = 0
-                x6 = _ik_pair(None, 0.0, s5, e31, -s5, 0.0, e32, 1.0)
-                if x6 is None or x6[0] < 1e-3:
-                    t12 = c4 * c5
-                    x6 = _ik_pair(x6, s4, -t12, c2 * t9 - s2 * r31, t12, s4, c2 * t10 - s2 * r32,
-                        4.0)
-                if x6 is None or x6[0] < 1e-3:
-                    t13 = s4 * c5
-                    x6 = _ik_pair(x6, -c4, -t13, c1 * r21 - s1 * r11, t13, -c4, c1 * r22 - s1 * r12,
-                        4.0)
+                x6 = _ik_pair(None, -1.0, 0.0, c4 * e21 - s4 * e11, 0.0, -1.0, c4 * e22 - s4 * e12,
+                    1.0)
                 c6, s6, free6 = _ik_turn(x6, _start[5], 5, _search)
                 angle4 = math.atan2(s4, c4)
                 angle5 = math.atan2(s5, c5)

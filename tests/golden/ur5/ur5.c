@@ -799,6 +799,8 @@ static void ur5_ik_branches(const double T[16], ur5_ik_search *found)
         const double angle1 = atan2(s1, c1);
         const double t4 = (c1 * r13) + (s1 * r23);
         const double t5 = (s1 * r13) - (c1 * r23);
+        const double t6 = (s1 * r11) - (c1 * r21);
+        const double t7 = (s1 * r12) - (c1 * r22);
 
         /* theta2 + theta3 + theta4: A s + B c + C = 0 */
         ur5_ik_unknown x234 = ur5_ik_open;
@@ -814,17 +816,16 @@ static void ur5_ik_branches(const double T[16], ur5_ik_search *found)
             ur5_ik_turn(&x5, found->start[4], 4U, found);
             const double c5 = x5.c[0];
             const double s5 = x5.s[0];
-            const double t6 = c5 * s234;
 
             /* theta6: two equations A s + B c + C = 0 */
             ur5_ik_unknown x6 = ur5_ik_open;
-            ur5_ik_pair(&x6, -c234, -t6, r31, t6, -c234, r32, 4.0);
+            ur5_ik_pair(&x6, 0.0, -s5, t6, s5, 0.0, t7, 1.0);
             if (x6.score < 1e-3) {
-                ur5_ik_pair(&x6, -r32, r31, -t6, r31, r32, -c234, 4.0);
+                const double t14 = c5 * s234;
+                ur5_ik_pair(&x6, -c234, -t14, r31, t14, -c234, r32, 4.0);
             }
             if (x6.score < 1e-3) {
-                ur5_ik_pair(&x6, 0.0, -s5, (s1 * r11) - (c1 * r21), s5, 0.0,
-                    (s1 * r12) - (c1 * r22), 1.0);
+                ur5_ik_pair(&x6, -r32, r31, -c5 * s234, r31, r32, -c234, 4.0);
             }
             ur5_ik_turn(&x6, found->start[5], 5U, found);
             const double c6 = x6.c[0];
@@ -832,12 +833,12 @@ static void ur5_ik_branches(const double T[16], ur5_ik_search *found)
             const double angle234 = atan2(s234, c234);
             const double angle5 = atan2(s5, c5);
             const double angle6 = atan2(s6, c6);
-            const double t7 = 0.09465 * c6;
-            const double t8 = 0.09465 * s6;
-            const double t9 = c1 * ((r12 * t7) + (r11 * t8) + t1);
-            const double t10 = s1 * ((r22 * t7) + (r21 * t8) + t2);
-            const double ex = t10 + t9;
-            const double ey = (r32 * t7) + (r31 * t8) + t3;
+            const double t8 = 0.09465 * c6;
+            const double t9 = 0.09465 * s6;
+            const double t10 = c1 * ((r12 * t8) + (r11 * t9) + t1);
+            const double t11 = s1 * ((r22 * t8) + (r21 * t9) + t2);
+            const double ex = t11 + t10;
+            const double ey = (r32 * t8) + (r31 * t9) + t3;
 
             /* theta3: A s + B c + C = 0 */
             ur5_ik_unknown x3 = ur5_ik_open;
@@ -847,18 +848,18 @@ static void ur5_ik_branches(const double T[16], ur5_ik_search *found)
             for (int k3 = 0; k3 < x3.count; ++k3) {
                 const double c3 = x3.c[k3];
                 const double s3 = x3.s[k3];
-                const double t11 = 0.39225 * s3;
-                const double t12 = (0.39225 * c3) + 0.425;
+                const double t12 = 0.39225 * s3;
+                const double t13 = (0.39225 * c3) + 0.425;
 
                 /* theta2: two equations A s + B c + C = 0 */
                 ur5_ik_unknown x2 = ur5_ik_open;
-                ur5_ik_pair(&x2, -t11, t12, ex, t12, t11, ey, 1.46289025);
+                ur5_ik_pair(&x2, -t12, t13, ex, t13, t12, ey, 1.46289025);
                 if (x2.score < 1e-3) {
-                    const double t13 = (c1 * t1) + (s1 * t2) - (0.09465 * s234);
-                    ur5_ik_pair(&x2, t12, t11, ey, -t11, t12, t13, 1.46289025);
+                    const double t15 = (c1 * t1) + (s1 * t2) - (0.09465 * s234);
+                    ur5_ik_pair(&x2, t13, t12, ey, -t12, t13, t15, 1.46289025);
                 }
                 if (x2.score < 1e-3) {
-                    ur5_ik_pair(&x2, -ex, ey, t11, -t11, t12, ex, 2.885404971);
+                    ur5_ik_pair(&x2, -ex, ey, t12, -t12, t13, ex, 2.885404971);
                 }
                 ur5_ik_turn(&x2, found->start[1], 1U, found);
                 const double c2 = x2.c[0];

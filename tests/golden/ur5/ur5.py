@@ -856,55 +856,57 @@ def _ik_branches(
     t7 = abs(d1) + t4 + t5 + t6 + abs(d5)
     t8 = t7 + abs(d6)
     t9 = t8 + t8
-    t17 = a3 * (2.0 * a2)
-    t18 = a2 * a2 + a3 * a3
-    t19 = 2.0 * t4 * t5
-    t20 = t8 * t8
-    t21 = t4 * t4 + t5 * t5 + t20 + t20
-    t22 = t19 + t21
-    t25 = t5 + (t5 + t4)
-    t26 = t25 * t25
+    t18 = a3 * (2.0 * a2)
+    t19 = a2 * a2 + a3 * a3
+    t20 = 2.0 * t4 * t5
+    t21 = t8 * t8
+    t22 = t4 * t4 + t5 * t5 + t21 + t21
+    t23 = t20 + t22
+    t26 = t5 + (t5 + t4)
+    t27 = t26 * t26
     # theta1: A s + B c + C = 0
     x1 = _ik_line(None, t1, -t2, -d4, t9, t9 + t6)
     for c1, s1, free1 in _ik_turns(x1, _start[0], 0, _search):
         angle1 = math.atan2(s1, c1)
         t10 = c1 * r13 + s1 * r23
         t11 = s1 * r13 - c1 * r23
+        t12 = s1 * r11 - c1 * r21
+        t13 = s1 * r12 - c1 * r22
         # theta2 + theta3 + theta4: A s + B c + C = 0
         x234 = _ik_line(None, t10, -r33, 0.0, 3.0, 3.0)
         for c234, s234, free234 in _ik_turns(x234, _start[1] + _start[2] + _start[3], 3, _search):
             # theta5: two equations A s + B c + C = 0
             x5 = _ik_pair(None, 0.0, -1.0, t11, 1.0, 0.0, s234 * r33 + c234 * t10, 1.0)
             c5, s5, free5 = _ik_turn(x5, _start[4], 4, _search)
-            t12 = c5 * s234
             # theta6: two equations A s + B c + C = 0
-            x6 = _ik_pair(None, -c234, -t12, r31, t12, -c234, r32, 4.0)
+            x6 = _ik_pair(None, 0.0, -s5, t12, s5, 0.0, t13, 1.0)
             if x6 is None or x6[0] < 1e-3:
-                x6 = _ik_pair(x6, -r32, r31, -t12, r31, r32, -c234, 4.0)
+                t28 = c5 * s234
+                x6 = _ik_pair(x6, -c234, -t28, r31, t28, -c234, r32, 4.0)
             if x6 is None or x6[0] < 1e-3:
-                x6 = _ik_pair(x6, 0.0, -s5, s1 * r11 - c1 * r21, s5, 0.0, s1 * r12 - c1 * r22, 1.0)
+                x6 = _ik_pair(x6, -r32, r31, -c5 * s234, r31, r32, -c234, 4.0)
             c6, s6, free6 = _ik_turn(x6, _start[5], 5, _search)
             angle234 = math.atan2(s234, c234)
             angle5 = math.atan2(s5, c5)
             angle6 = math.atan2(s6, c6)
-            t13 = d5 * c6
-            t14 = d5 * s6
-            t15 = c1 * (r12 * t13 + r11 * t14 + t1)
-            t16 = s1 * (r22 * t13 + r21 * t14 + t2)
-            ex = t16 + t15
-            ey = r32 * t13 + r31 * t14 + t3
+            t14 = d5 * c6
+            t15 = d5 * s6
+            t16 = c1 * (r12 * t14 + r11 * t15 + t1)
+            t17 = s1 * (r22 * t14 + r21 * t15 + t2)
+            ex = t17 + t16
+            ey = r32 * t14 + r31 * t15 + t3
             # theta3: A s + B c + C = 0
-            x3 = _ik_line(None, 0.0, -t17, ex * ex - t18 + ey * ey, t19, t22)
+            x3 = _ik_line(None, 0.0, -t18, ex * ex - t19 + ey * ey, t20, t23)
             for c3, s3, free3 in _ik_turns(x3, _start[2], 2, _search):
-                t23 = a3 * s3
-                t24 = a3 * c3 + a2
+                t24 = a3 * s3
+                t25 = a3 * c3 + a2
                 # theta2: two equations A s + B c + C = 0
-                x2 = _ik_pair(None, t23, -t24, ex, -t24, -t23, ey, t26)
+                x2 = _ik_pair(None, t24, -t25, ex, -t25, -t24, ey, t27)
                 if x2 is None or x2[0] < 1e-3:
-                    t27 = c1 * t1 + s1 * t2 - d5 * s234
-                    x2 = _ik_pair(x2, -t24, -t23, ey, t23, -t24, t27, t26)
+                    t29 = c1 * t1 + s1 * t2 - d5 * s234
+                    x2 = _ik_pair(x2, -t25, -t24, ey, t24, -t25, t29, t27)
                 if x2 is None or x2[0] < 1e-3:
-                    x2 = _ik_pair(x2, -ex, ey, -t23, t23, -t24, ex, t9 * t25)
+                    x2 = _ik_pair(x2, -ex, ey, -t24, t24, -t25, ex, t9 * t26)
                 c2, s2, free2 = _ik_turn(x2, _start[1], 1, _search)
                 angle3 = math.atan2(s3, c3)
                 angle2 = math.atan2(s2, c2)
