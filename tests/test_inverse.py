@@ -351,6 +351,19 @@ def test_a_base_that_is_turned_mixes_no_coordinate_that_is_not_given(base: str, 
         assert min(apart(arm, answer.q, truth) for answer in answers) < 1e-6
 
 
+def test_joints_that_repeat_what_others_do_are_to_be_held() -> None:
+    """Four parallel axes: a plane has three ways to move, and a fourth joint has no value."""
+    rows = "".join(f"  - {{theta: q{k}, d: 0, a: 0.{k}, alpha: 0}}\n" for k in range(1, 5))
+    robot = symdh.loads(f"name: snake\nconvention: standard\njoints:\n{rows}")
+    with pytest.raises(
+        UnsupportedError, match="4 joints that move, and they move the hand in 3 ways only"
+    ) as raised:
+        inverse_kinematics(robot)
+    named = str(raised.value).rpartition("with --lock ")[2].split()[0]
+    held_robot = inverse_kinematics(robot, None, [symbol(named)])
+    assert held_robot.method is Method.CLOSED_FORM
+
+
 def test_a_quadratic_in_a_slide_has_two_values() -> None:
     text = """
 name: slanted
@@ -733,7 +746,7 @@ def test_the_right_hand_solution_has_the_elbow_on_the_right() -> None:
 
 @pytest.mark.parametrize("name", ["abb_irb140", "kuka_kr5", "fanuc_r2000ib_200r"])
 def test_an_arm_faces_the_goal_where_its_shoulder_is_on_the_goals_side(name: str) -> None:
-    """Standard tables with a_1: the shoulder is the origin of frame 1, the wrist that of frame 4."""
+    """Standard tables with a_1: the origin of frame 1 is the shoulder, that of 4 the wrist."""
     branches, found = names_and_poses(name, 10)
     met = set()
     for taken, q in found:
