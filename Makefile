@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed-for-development
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check golden bench bench-ik bench-code accuracy lint-c repro trust trust-cut vendor clean coverage mutants lock audit
+.PHONY: help run test check golden bench bench-ik bench-code accuracy lint-c repro trust trust-cut vendor clean coverage mutants lock audit check-ik
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 16
@@ -35,10 +35,15 @@ check: $(STAMP) ## lint, formatting, types
 golden: $(STAMP) ## renew the golden files; look at the difference before committing
 	SYMDH_UPDATE_GOLDEN=1 $(BIN)/python -m pytest tests/test_golden.py
 
+check-ik: $(STAMP) ## inverse kinematics at length: every table, singular sets, counts beside EAIK
+	$(BIN)/python tests/check_inverse.py
+	$(BIN)/python tests/check_singular.py -j 2
+	$(BIN)/python tests/check_eaik.py
+
 bench: $(STAMP) ## measure against sympy's own simplify and bare imports
 	$(BIN)/python tests/bench.py
 
-bench-ik: $(STAMP) ## time and count inverse kinematics in C beside EAIK
+bench-ik: $(STAMP) ## time inverse kinematics in C beside EAIK and IKFast
 	$(BIN)/python tests/bench_ik.py
 
 bench-code: $(STAMP) ## time generated code beside CasADi, SymForce, sympy and Pinocchio

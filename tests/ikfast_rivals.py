@@ -40,6 +40,7 @@ base: [Tz(0.4), Rx(180 deg)]
 tool: [Ry(180 deg)]
 """
 
+# In the description that its file was made from the last axis is tilted by 40 microradians.
 ABB_IRB4600 = """
 name: abb_irb4600
 convention: modified

@@ -352,6 +352,19 @@ def test_a_base_that_is_turned_mixes_no_coordinate_that_is_not_given(base: str, 
         assert min(apart(arm, answer.q, truth) for answer in answers) < 1e-6
 
 
+def test_joints_that_repeat_what_others_do_are_to_be_held() -> None:
+    """Four parallel axes: a plane has three ways to move, and a fourth joint has no value."""
+    rows = "".join(f"  - {{theta: q{k}, d: 0, a: 0.{k}, alpha: 0}}\n" for k in range(1, 5))
+    robot = symdh.loads(f"name: snake\nconvention: standard\njoints:\n{rows}")
+    with pytest.raises(
+        UnsupportedError, match="4 joints that move, and they move the hand in 3 ways only"
+    ) as raised:
+        inverse_kinematics(robot)
+    named = str(raised.value).rpartition("with --lock ")[2].split()[0]
+    held_robot = inverse_kinematics(robot, None, [symbol(named)])
+    assert held_robot.method is Method.CLOSED_FORM
+
+
 def test_a_quadratic_in_a_slide_has_two_values() -> None:
     text = """
 name: slanted
@@ -733,6 +746,59 @@ def test_the_right_hand_solution_has_the_elbow_on_the_right() -> None:
         elbow, hand = origin("planar_2r", q, 1), origin("planar_2r", q, 2)
         right = np.cross(hand, elbow)[2] < 0
         assert ("right-hand solution" in branches.names(taken, q)) == right
+
+
+@pytest.mark.parametrize("name", ["abb_irb140", "kuka_kr5", "fanuc_r2000ib_200r"])
+def test_an_arm_faces_the_goal_where_its_shoulder_is_on_the_goals_side(name: str) -> None:
+    """Standard tables with a_1: the origin of frame 1 is the shoulder, that of 4 the wrist."""
+    branches, found = names_and_poses(name, 10)
+    met = set()
+    for taken, q in found:
+        shoulder, wrist = origin(name, q, 1), origin(name, q, 4)
+        facing = np.dot(shoulder[:2], wrist[:2]) > 0
+        met.add(facing)
+        assert ("facing the goal" in branches.names(taken, q)) == facing
+    assert len(met) == 2
+
+
+@pytest.mark.parametrize("name", ["scara_rrpr", "planar_3r", "planar_2r_p"])
+def test_the_left_elbow_is_left(name: str) -> None:
+    """The elbow is the origin of frame 1; left is seen from above, ahead to the third axis."""
+    branches, found = names_and_poses(name, 20)
+    for taken, q in found:
+        left = np.cross(origin(name, q, 2), origin(name, q, 1))[2] > 0
+        assert ("elbow left" in branches.names(taken, q)) == left
+
+
+@pytest.mark.parametrize("name", ["stanford_textbook", "spherical_rrp", "cylindrical_rpp_wrist"])
+def test_a_slide_is_forward_where_its_d_is_positive(name: str) -> None:
+    branches, found = names_and_poses(name, 10)
+    for taken, q in found:
+        assert ("slide 3 forward" in branches.names(taken, q)) == (q[2] > 0)
+
+
+QUARTIC = """
+name: three_parallel
+convention: standard
+units: {angle: deg, length: m}
+joints:
+  - {theta: theta1, d: 0.3, a: 0.1, alpha: 90 deg}
+  - {theta: theta2, d: 0.1, a: 0.3, alpha: 0}
+  - {theta: theta3, d: 0.2, a: 0.25, alpha: 0}
+  - {theta: theta4, d: 0.1, a: 0.15, alpha: 90 deg}
+  - {theta: theta5, d: 0.12, a: 0.1, alpha: -90 deg}
+  - {theta: theta6, d: 0.1, a: 0.05, alpha: 0}
+"""
+
+
+def test_the_roots_of_a_quartic_are_numbered() -> None:
+    """Of four roots any two may be real, and no side of the arm tells which."""
+    form = closed_form(symdh.loads(QUARTIC))
+    assert isinstance(form, ClosedForm)
+    first = branches_of(form).steps[0]
+    assert first.step.rule is Rule.HALF_ANGLE
+    assert first.feature is None
+    assert first.names == tuple(f"theta5 root {k}" for k in (1, 2, 3, 4))
 
 
 @pytest.mark.parametrize("name", ["puma560", "ur5", "stanford_textbook"])

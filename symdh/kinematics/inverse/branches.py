@@ -108,7 +108,9 @@ def branches_of(form: ClosedForm, values: Mapping[Symbol, Expr] | None = None) -
     seen = _trials(solver, shown, drawn)
     steps, used = [], set[int]()
     for place, step in enumerate(form.branching):
-        told = _told_apart(seen, place, [k for k in range(len(shown)) if k not in used])
+        left = [k for k in range(len(shown)) if k not in used]
+        # A side has two names; the four roots of a quartic have none of them for their own.
+        told = _told_apart(seen, place, left) if step.branches == 2 else None
         used |= set() if told is None else {told}
         feature = None if told is None else shown[told]
         if feature is None or told is None:
@@ -139,7 +141,7 @@ def _told_apart(seen: Sequence[_Seen], place: int, candidates: Sequence[int]) ->
             before.setdefault(each.branches[place], set()).add(each.sides[feature])
         settled = all(len(found) == 1 for group in sides.values() for found in group.values())
         both = [group for group in sides.values() if len(group) == 2]
-        if settled and len(both) >= _ENOUGH and all(g[0] != g[1] for g in both if 0 in g):
+        if settled and len(both) >= _ENOUGH and all(g[0] != g[1] for g in both):
             return feature
     return None
 

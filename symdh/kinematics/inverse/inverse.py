@@ -17,7 +17,7 @@ from symdh.kinematics.inverse.numeric import Solver
 from symdh.kinematics.inverse.search import TIME_BUDGET, closed_form
 from symdh.kinematics.inverse.solution import ClosedForm, Tried
 from symdh.kinematics.inverse.structure import Structure, structure
-from symdh.kinematics.inverse.task import InverseTask, Kind, inverse_task
+from symdh.kinematics.inverse.task import InverseTask, Kind, inverse_task, ways_to_move
 from symdh.robot import JointType, Robot
 
 #: What a pose of a rigid body has.
@@ -124,7 +124,8 @@ def inverse_kinematics(
     Raises
     ------
     UnsupportedError
-        When the arm has more moving joints than the task gives numbers, or the task is unknown.
+        When the arm has more moving joints than the task gives numbers, or than ways to move its
+        hand, or the task is unknown.
     LimitError
         When the time is used up before the search has come to an end.
     """
@@ -132,7 +133,8 @@ def inverse_kinematics(
     held = tuple(locked)
     freedoms = len(robot.variables) - len(held)
     if freedoms > MOST_FREEDOMS:
-        raise _too_many(robot, freedoms, held, seconds)
+        text = "a pose gives six numbers"
+        raise _too_many(robot, freedoms - MOST_FREEDOMS, held, text, seconds)
     wanted = inverse_task(robot, freedoms, task)
     found = closed_form(robot, wanted, held, seconds)
     shape = structure(robot)
@@ -146,6 +148,11 @@ def inverse_kinematics(
 
     def left() -> float:
         return max(seconds - (process_time() - begin), 0.1)
+
+    ways = ways_to_move(robot, wanted, held)
+    if ways < freedoms:
+        text = f"they move the hand in {ways} ways only"
+        raise _too_many(robot, freedoms - ways, held, text, left())
 
     simple = nominal(robot)
     form = closed_form(simple, wanted, held, left()) if simple is not None else found
@@ -161,15 +168,14 @@ def inverse_kinematics(
 
 
 def _too_many(
-    robot: Robot, freedoms: int, held: tuple[Symbol, ...], seconds: float
+    robot: Robot, more: int, held: tuple[Symbol, ...], why: str, seconds: float
 ) -> UnsupportedError:
-    """Say that joints have to be locked, and name one that leaves a closed form."""
+    """Say that so many joints have to be locked, and name one that leaves a closed form."""
     free = [variable for variable in robot.variables if variable not in held]
     names = ", ".join(variable.name for variable in free)
-    text = f"{robot.name} has {freedoms} joints that move, and a pose gives six numbers"
-    if freedoms > MOST_FREEDOMS + 1:
-        count = freedoms - MOST_FREEDOMS
-        return UnsupportedError(f"{text}: hold {count} of them with --lock NAME ({names})")
+    text = f"{robot.name} has {len(free)} joints that move, and {why}"
+    if more > 1:
+        return UnsupportedError(f"{text}: hold {more} of them with --lock NAME ({names})")
     begin = process_time()
     for variable in sorted(free, key=lambda v: abs(free.index(v) - len(free) // 2 + 1)):
         if process_time() - begin > seconds / 2:

@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
+from sympy import Symbol
+
 from symdh.errors import UnsupportedError
 from symdh.kinematics.inverse.lines import Line, joint_lines
 from symdh.kinematics.inverse.numeric_chain import NumericChain
@@ -155,20 +157,37 @@ def moved_coordinates(robot: Robot) -> tuple[int, ...]:
     return tuple(moved)
 
 
+def ways_to_move(robot: Robot, task: InverseTask, locked: Sequence[Symbol] = ()) -> int:
+    """Return in how many independent ways the joints change what a task gives.
+
+    Fewer than joints that move say that some of these repeat what others do.
+    """
+    rows = list(task.axes) + ([3, 4, 5] if task.with_orientation else [])
+    columns = [k for k, variable in enumerate(robot.variables) if variable not in locked]
+    return _rank(robot, rows, columns)
+
+
 def _places(robot: Robot, rank: int) -> bool:
     """Say whether the joints can move the hand in so many directions."""
+    return _rank(robot, [0, 1, 2], range(len(robot.variables))) >= rank
+
+
+def _rank(robot: Robot, rows: Sequence[int], columns: Sequence[int]) -> int:
+    """Return the rank of a part of the Jacobian at random joint values, lengths in reaches."""
     chain = NumericChain.of(robot, _random_lengths(robot))
-    rows = [list(row) for row in chain.jacobian(_random_values(robot, 6))[:3]]
-    for k in range(rank):
-        column = range(len(rows[0]))
-        size, r, c = max((abs(rows[r][c]), r, c) for r in range(k, len(rows)) for c in column)
-        if size < _SMALL * chain.reach:
-            return False
-        rows[k], rows[r] = rows[r], rows[k]
-        for row in rows[k + 1 :]:
-            factor = row[c] / rows[k][c]
-            row[:] = [x - factor * y for x, y in zip(row, rows[k], strict=True)]
-    return True
+    slope = chain.jacobian(_random_values(robot, 6))
+    left = [[slope[r][c] / (chain.reach if r < 3 else 1.0) for c in columns] for r in rows]
+    rank = 0
+    while left and columns:
+        size, r, c = max((abs(x), r, c) for r, row in enumerate(left) for c, x in enumerate(row))
+        if size < _SMALL:
+            break
+        pivot = left.pop(r)
+        left = [
+            [x - row[c] / pivot[c] * y for x, y in zip(row, pivot, strict=True)] for row in left
+        ]
+        rank += 1
+    return rank
 
 
 def _samples(robot: Robot) -> list[list[float]]:

@@ -519,11 +519,13 @@ class _IkSearch:
         self.goal, self.start, self.reach, self.parameters = goal, start, reach, parameters
         self.answers: list[list[float]] = []
         self.masks: list[int] = []
-        #: Steps of Newton's method at most, and whether any proposal is worth them, damped.
-        self.steps, self.anywhere = 6, False
+        #: Steps of Newton's method at most, and whether one that makes it worse is taken shorter.
+        self.steps, self.damped = 6, False
+        #: Whether any proposal is worth them, and what is badly conditioned counts as free.
+        self.anywhere = False
         #: How far beyond the reach a target counts as on its boundary.
         self.slack = 1e-9
-        #: An equation was badly conditioned; a joint was left free: an answer may be missing.
+        #: An equation was badly conditioned; a joint is free, or nearly: an answer may be missing.
         self.doubtful = self.freed = False
 
     def solve(self, pose: npt.NDArray[np.float64], start: npt.NDArray[np.float64]) -> None:
@@ -537,6 +539,9 @@ class _IkSearch:
         for q, error, (_, mask) in zip(values, errors, proposed, strict=True):
             if error < 0.05 * self.reach or self.anywhere:
                 q, error = self.improved(q, error)
+            if 1e-9 * self.reach < error < 1e-3 * self.reach:
+                # So near a goal that is within reach that an answer may have been missed.
+                self.doubtful = True
             if error <= 1e-9 * self.reach:
                 pairs = zip(q.tolist(), _IK_TURNS, strict=True)
                 answer = [_ik_wrapped(x) if turns else x for x, turns in pairs]
@@ -558,21 +563,28 @@ class _IkSearch:
             if left < error:
                 q, error = trial, left
                 damping = 0.2 * damping if damping > 1e-7 else 0.0
-            elif self.anywhere and damping < 10.0:
+            elif self.damped and damping < 10.0:
                 damping = 5.0 * damping or 1e-6
             else:
                 break
         return q, error
 
     def rescue(self) -> None:
-        """Solve where equations degenerate: for poses near by, then with free joints elsewhere."""
-        self.steps = 40
-        for size in (1e-6, 1e-5, 1e-4, 1e-3):
-            for x, y, z, *moved in _IK_TWISTS:
-                turn = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        """Solve where equations degenerate: with more of Newton's steps, for poses near by, then
+        with free joints elsewhere.
+        """
+        self.steps, self.damped = 40, True
+        self.solve(self.goal, self.start)
+        if self.answers:
+            return
+        for k, size in enumerate((1e-6, 1e-5, 1e-4, 1e-3)):
+            x, y, z, *moved = _IK_TWISTS[k % 2]
+            turn = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+            # Beyond a boundary one of two opposite directions comes back within reach.
+            for by in (size, -size):
                 near = self.goal.copy()
-                near[:3] += size * (turn @ self.goal[:3])
-                near[:3, 3] += size * self.reach * np.array(moved)
+                near[:3] += by * (turn @ self.goal[:3])
+                near[:3, 3] += by * self.reach * np.array(moved)
                 self.solve(near, self.start)
                 if self.answers:
                     return
@@ -686,14 +698,16 @@ def _ik_turns(
     """Yield cosine and sine of the values of an angle, and its bit where it is free."""
     score, a, b, rest, whole = kept or (0.0, 0.0, 0.0, 0.0, 0.0)
     h = math.hypot(a, b)
-    if not score > 1e-12:
+    if not score > (1e-5 if search.anywhere else 1e-12):
         search.doubtful = True
-        if abs(rest) <= 1e-9 * whole:
+        if abs(rest) <= search.slack * whole:
             search.freed = True
             yield math.cos(seed), math.sin(seed), 1 << place
         return
     beyond = abs(rest) - h
-    if score < 1e-5 or abs(beyond) < 1e-5 * h:
+    if score < 1e-5:
+        search.doubtful = search.freed = True
+    if abs(beyond) < 1e-5 * h:
         search.doubtful = True
     if beyond <= search.slack * h:
         # A goal on the boundary may be beyond it by rounding.
@@ -733,8 +747,7 @@ def _ik_turn(
     """Return cosine and sine of an angle, and its bit where it is free."""
     score, c, s = kept or (0.0, 1.0, 0.0)
     if score < 1e-5:
-        search.doubtful = True
-    if score > 1e-24:
+        search.doubtful = search.freed = True
+    if score > (1e-5 if search.anywhere else 1e-24):
         return c, s, 0
-    search.freed = True
     return math.cos(seed), math.sin(seed), 1 << place
