@@ -158,7 +158,10 @@ def assert_right(given: Case, found: Sequence[Answers]) -> None:
 
 
 def assert_right_in_single(given: Case, found: Sequence[Answers]) -> None:
-    """Judge answers in single precision; answers that nearly meet may count as one."""
+    """Judge answers in single precision.
+
+    One random pose in fifty is excused: where two answers nearly meet, a float takes them for one.
+    """
     random = len(given.own)
     assert len(found) == len(given.goals)
     for k, (answers, goal) in enumerate(zip(found, given.goals, strict=True)):
@@ -167,10 +170,11 @@ def assert_right_in_single(given: Case, found: Sequence[Answers]) -> None:
     assert all(len(answers.q) > 0 for answers in found[: -given.nowhere])
     pairs = list(zip(found[:random], given.expected[:random], strict=True))
     agreed = sum(len(answers.q) == len(expected.q) for answers, expected in pairs)
-    assert agreed >= 0.98 * random, given.table.stem
+    excused = max(1.0, 0.02 * random)
+    assert agreed >= random - excused, given.table.stem
     found_and_own = zip(found[:random], given.own, strict=True)
     near = [given.arm.apart(answers.q, own).min() for answers, own in found_and_own]
-    assert np.sum(np.array(near) < 2e-2) >= 0.98 * random, given.table.stem
+    assert np.sum(np.array(near) < 2e-2) >= random - excused, given.table.stem
 
 
 # ---------------------------------------------------------------------------------- C with floats
