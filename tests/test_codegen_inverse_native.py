@@ -18,6 +18,7 @@ import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -25,11 +26,12 @@ from inverse_checks import CLOSED, LOCKS
 from inverse_code import CInverse, Loaded, compile_inverse, load
 from sympy import Symbol
 from test_codegen_extension import build
-from test_targets import CPP, require_eigen, run
+from test_targets import CPP, cpp_parameters, require_eigen, run
 
 import symdh
 from symdh.codegen import generate
 from symdh.codegen.targets import rust
+from symdh.robot import Robot
 from tools import find_tool, require_tool
 
 FEW = (
@@ -37,7 +39,9 @@ FEW = (
     *("planar_2r", "zyz_wrist", "cartesian_ppp", "ikbt_ArmRobo", "kuka_iiwa7", "elbow_3r"),
 )
 EVERY = os.environ.get("SYMDH_IK_NATIVE") == "all"
-TABLES = [table for table in CLOSED if EVERY or table.stem in FEW]
+#: With base, tool, limits and parameters without a value, which no table of the corpus has.
+OWN = sorted((Path(__file__).parent / "data" / "inverse").glob("*.yaml"))
+TABLES = [*(table for table in CLOSED if EVERY or table.stem in FEW), *OWN]
 POSES = int(os.environ.get("SYMDH_IK_POSES", "10"))
 
 each_table = pytest.mark.parametrize("table", TABLES, ids=lambda table: table.stem)
@@ -158,7 +162,10 @@ def assert_right(given: Case, found: Sequence[Answers]) -> None:
 
 
 def assert_right_in_single(given: Case, found: Sequence[Answers]) -> None:
-    """Judge answers in single precision; answers that nearly meet may count as one."""
+    """Judge answers in single precision.
+
+    One random pose in fifty is excused: where two answers nearly meet, a float takes them for one.
+    """
     random = len(given.own)
     assert len(found) == len(given.goals)
     for k, (answers, goal) in enumerate(zip(found, given.goals, strict=True)):
@@ -167,10 +174,11 @@ def assert_right_in_single(given: Case, found: Sequence[Answers]) -> None:
     assert all(len(answers.q) > 0 for answers in found[: -given.nowhere])
     pairs = list(zip(found[:random], given.expected[:random], strict=True))
     agreed = sum(len(answers.q) == len(expected.q) for answers, expected in pairs)
-    assert agreed >= 0.98 * random, given.table.stem
+    excused = max(1.0, 0.02 * random)
+    assert agreed >= random - excused, given.table.stem
     found_and_own = zip(found[:random], given.own, strict=True)
     near = [given.arm.apart(answers.q, own).min() for answers, own in found_and_own]
-    assert np.sum(np.array(near) < 2e-2) >= 0.98 * random, given.table.stem
+    assert np.sum(np.array(near) < 2e-2) >= random - excused, given.table.stem
 
 
 # ---------------------------------------------------------------------------------- C with floats
@@ -205,7 +213,7 @@ def test_c_in_single_finds_the_joint_values_again(table: Path, tmp_path: Path) -
 
 def test_bounds_of_float_are_told_in_its_header() -> None:
     header, source = generate(symdh.load(_named("puma560")), "c", precision="float")
-    assert "less than 1e-5f of the arm's" in header.text
+    assert "less than 1e-5 of the arm's" in header.text
     assert "int puma560_float_ik(" in header.text
     code = re.sub(r"/\*.*?\*/|#error.*", "", source.text, flags=re.DOTALL)
     assert not re.search(r"\bdouble\b|\b\d+\.\d+(e-?\d+)?\b(?!f)|\b\d+e-?\d+\b", code)
@@ -213,6 +221,81 @@ def test_bounds_of_float_are_told_in_its_header() -> None:
 
 def _named(name: str) -> Path:
     return next(table for table in CLOSED if table.stem == name)
+
+
+# --------------------------------------------------------------------------- names of the table
+
+#: What the code calls things itself: arguments, helpers, types, members.
+HOSTILE = ("found", "blank", "seed", "Scalar", "std", "detail", "x1", "k2", "free1", "answers")
+
+
+def hostile_arm() -> Robot:
+    """Ten links in a plane, eight of them fixed, of lengths with such names."""
+    first, second, *fixed = HOSTILE
+    rows = [f"{{theta: ik, d: 0, a: {first}, alpha: 0}}"]
+    rows += [f"{{theta: 0, d: 0, a: {name}, alpha: 0}}" for name in fixed]
+    rows += [f"{{theta: T, d: 0, a: {second}, alpha: 0}}"]
+    joints = "".join(f"  - {row}\n" for row in rows)
+    return symdh.loads(f"name: hostile\nconvention: standard\njoints:\n{joints}")
+
+
+def test_names_of_the_table_stand_against_nothing_in_cpp(tmp_path: Path) -> None:
+    require_eigen()
+    (header,) = generate(hostile_arm(), "cpp")
+    (tmp_path / header.name).write_text(header.text)
+    fields = cpp_parameters(header.text)
+    assert len(fields) == len(HOSTILE)
+    lengths = "".join(f"    p.{name} = 0.1 * {k + 1};\n" for k, name in enumerate(fields))
+    main = f"""\
+#include "hostile.hpp"
+int main() {{
+    hostile::Params<double> p;
+{lengths}
+    const Eigen::Vector2d q(0.3, 0.9);
+    const auto answers = hostile::ik(hostile::fk(q, p), p, q);
+    return answers.size() == 2 && (answers[0] - q).norm() < 1e-9 ? 0 : 1;
+}}
+"""
+    (tmp_path / "main.cpp").write_text(main)
+    run([require_tool("g++"), *CPP, "main.cpp", "-o", "main"], tmp_path)
+    run([tmp_path / "main"], tmp_path)
+
+
+def test_names_of_the_table_stand_against_nothing_in_rust(tmp_path: Path) -> None:
+    (file,) = generate(hostile_arm(), "rust")
+    (tmp_path / file.name).write_text(file.text)
+    lengths = ", ".join(repr(0.1 * (k + 1)) for k in range(len(HOSTILE)))
+    main = f"""\
+mod hostile;
+fn main() {{
+    let p = hostile::Params::new({lengths});
+    let q = [0.3, 0.9];
+    let pose = hostile::fk(&q, &p, f64::sin_cos);
+    let mut answers = [[0.0; 2]; hostile::IK_MAX];
+    let count = hostile::ik(
+        &pose, &p, Some(&q), &mut answers, None, {rust_call(file.text)});
+    assert!(count == 2 && (answers[0][0] - 0.3).abs() + (answers[0][1] - 0.9).abs() < 1e-9);
+}}
+"""
+    (tmp_path / "main.rs").write_text(main)
+    run([find_tool("rustc"), "--edition=2021", "-D", "warnings", "main.rs"], tmp_path)
+    run([tmp_path / "main"], tmp_path)
+
+
+def test_names_of_the_table_stand_against_nothing_in_c_and_the_extension(tmp_path: Path) -> None:
+    robot = hostile_arm()
+    header, source = generate(robot, "c", precision="float")
+    lengths = [0.1 * (k + 1) for k in range(len(HOSTILE))]
+    function = compile_inverse(header, source, tmp_path, 2, lengths)
+    module = build(robot, tmp_path)
+    named = dict(zip(_keywords(module), lengths, strict=True))
+    pose = module.fk([0.3, 0.9], **named)
+    assert np.allclose(module.ik(pose, seed=[0.3, 0.9], **named)[0], [0.3, 0.9])
+    assert np.allclose(function(pose, [0.3, 0.9])[0][0], [0.3, 0.9], atol=1e-4)
+
+
+def _keywords(module: ModuleType) -> list[str]:
+    return re.findall(r"\w+", str(module.fk.__text_signature__).partition("*")[2])
 
 
 # ------------------------------------------------------------------------------- running a language
@@ -524,7 +607,7 @@ def test_rust_fills_what_is_the_callers(tmp_path: Path) -> None:
 
 def test_rust_needs_core_alone_and_clippy_is_content(tmp_path: Path) -> None:
     """Every kind of equation and of joint, in a crate without std."""
-    names = ("pieper_generic", "stanford_textbook", "cartesian_ppp", "planar_2r", "ikbt_ArmRobo")
+    names = ("pieper_generic", "stanford_textbook", "cartesian_ppp", "planar_2r", "zyz_wrist")
     modules = []
     (tmp_path / "src").mkdir()
     for name in names:
@@ -552,7 +635,7 @@ def test_rust_needs_core_alone_and_clippy_is_content(tmp_path: Path) -> None:
 
 # ------------------------------------------------------------------------------ Python extension
 
-EXTENDED = [table for table in TABLES if EVERY or table.stem in ("puma560", "scara_rrpr", "ur5")]
+EXTENDED = [table for table in TABLES if EVERY or table in OWN or table.stem == "puma560"]
 
 
 @pytest.mark.parametrize("table", EXTENDED, ids=lambda table: table.stem)

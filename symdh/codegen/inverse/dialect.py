@@ -45,6 +45,8 @@ class Dialect:
         Functions of <math.h>.
     bounds : mapping of str to str
         What the helpers go by (see `symdh.codegen.inverse.constants`).
+    told : mapping of str to str
+        The same for people, of the precision that is named, in C++ of double.
     number, cast : callable
         Write a literal of a double, and an integer as a number.
     """
@@ -66,6 +68,7 @@ class Dialect:
     infinity: str
     math: Mapping[str, str]
     bounds: Mapping[str, str]
+    told: Mapping[str, str]
     number: Callable[[str], str]
     cast: Callable[[str], str]
 
@@ -102,6 +105,7 @@ def c_dialect(stem: str, precision: Precision) -> Dialect:
         infinity=f"({real})HUGE_VAL" if suffix else "HUGE_VAL",
         math={call: call + suffix for call in _CALLED},
         bounds={key: text + suffix for key, text in numbers.items()},
+        told=numbers,
         number=lambda text: text + suffix,
         cast=lambda text: f"({real}){text}",
     )
@@ -127,6 +131,7 @@ def cpp_dialect() -> Dialect:
         infinity="std::numeric_limits<Scalar>::infinity()",
         math={call: f"std::{call}" for call in _CALLED},
         bounds={key: f"ik_bounds<Scalar>::{key}" for key in NUMBERS},
+        told=NUMBERS,
         number=lambda text: f"Scalar({text})",
         cast=lambda text: f"Scalar({text})",
     )

@@ -7,6 +7,7 @@
 #include "minimover_5r.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #ifndef minimover_5r_TABLE_696dd866c782d779
 #error "minimover_5r.h and minimover_5r.c come from different tables: generate both again"
@@ -412,11 +413,10 @@ typedef struct minimover_5r_ik_search {
     double reach;
     int count;
     int steps; /* of Newton's method at most */
-    int damped; /* whether a step that makes it worse is taken again, shorter */
-    int anywhere; /* whether any proposal is worth them, and what is badly conditioned is free */
+    int anywhere; /* whether any proposal is worth them, damped */
     double slack; /* how far beyond the reach a target counts as on its boundary */
     int doubtful; /* an equation was badly conditioned: an answer may be missing */
-    int freed; /* a joint is free, or nearly: another value may lead to an answer */
+    int freed; /* a joint was left free: another value may lead to an answer */
 } minimover_5r_ik_search;
 
 /* An unknown: its values as cosines and sines, a slide's in c, and how well it is conditioned. */
@@ -431,18 +431,6 @@ typedef struct minimover_5r_ik_unknown {
     int count;
     unsigned free_joints;
 } minimover_5r_ik_unknown;
-
-static const minimover_5r_ik_unknown minimover_5r_ik_open = {
-    {0.0, 0.0},
-    {0.0, 0.0},
-    0.0,
-    0.0,
-    0.0,
-    0.0,
-    -1.0,
-    0,
-    0U,
-};
 
 /* Leave an angle free: it has the seed's value. */
 static void minimover_5r_ik_leave(minimover_5r_ik_unknown *x, double seed, unsigned place)
@@ -473,28 +461,31 @@ static void minimover_5r_ik_turns(
 {
     const double h = sqrt((x->a * x->a) + (x->b * x->b));
     const double beyond = fabs(x->rest) - h;
-    if (!(x->score > ((found->anywhere != 0) ? 1e-5 : 1e-12))) {
+    if (!(x->score > 1e-12)) {
         found->doubtful = 1;
-        if (fabs(x->rest) <= (found->slack * x->whole)) {
+        if (fabs(x->rest) <= (1e-9 * x->whole)) {
             found->freed = 1;
             minimover_5r_ik_leave(x, seed, place);
         }
-        return;
-    }
-    if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
-        found->doubtful = 1;
-        found->freed = (x->score < 1e-5) ? 1 : found->freed;
-    }
-    if (beyond <= (found->slack * h)) {
-        /* A goal on the boundary may be beyond it by rounding. */
-        const double c = (beyond > 0.0) ? ((x->rest > 0.0) ? h : -h) : x->rest;
-        const double root = sqrt((h - c) * (h + c));
-        const double scale = 1.0 / (h * h);
-        x->c[0] = -((x->b * c) + (x->a * root)) * scale;
-        x->s[0] = ((x->b * root) - (x->a * c)) * scale;
-        x->c[1] = ((x->a * root) - (x->b * c)) * scale;
-        x->s[1] = -((x->a * c) + (x->b * root)) * scale;
-        x->count = (root > 0.0) ? 2 : 1;
+    } else {
+        if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
+            found->doubtful = 1;
+        }
+        if (beyond <= (found->slack * h)) {
+            const double edge = (x->rest > 0.0) ? h : -h;
+            /* A goal on the boundary may be beyond it by rounding. */
+            const double c = (beyond > 0.0) ? edge : x->rest;
+            const double root = sqrt((h - c) * (h + c));
+            const double scale = 1.0 / (h * h);
+            x->c[0] = -((x->b * c) + (x->a * root)) * scale;
+            x->s[0] = ((x->b * root) - (x->a * c)) * scale;
+            x->c[1] = ((x->a * root) - (x->b * c)) * scale;
+            x->s[1] = -((x->a * c) + (x->b * root)) * scale;
+            x->count = 1;
+            if (root > 0.0) {
+                x->count = 2;
+            }
+        }
     }
 }
 
@@ -529,10 +520,10 @@ static void minimover_5r_ik_turn(
 {
     if (x->score < 1e-5) {
         found->doubtful = 1;
-        found->freed = 1;
     }
     x->count = 1;
-    if (!(x->score > ((found->anywhere != 0) ? 1e-5 : 1e-24))) {
+    if (!(x->score > 1e-24)) {
+        found->freed = 1;
         minimover_5r_ik_leave(x, seed, place);
     }
 }
@@ -637,29 +628,36 @@ static void minimover_5r_ik_step(
     }
 }
 
-/* Improve joint values by Newton's method; the error that is left. */
+/* Improve joint values by Newton's method, damped where that makes them worse if `damped` says so;
+   the error that is left. */
 static double minimover_5r_ik_improve(
-    const minimover_5r_ik_search *found, double q[5], double error)
+    const minimover_5r_ik_search *found, double q[5], double error, int damped)
 {
+    double best = error;
     double damping = 0.0;
-    for (int step = 0; (step < found->steps) && (error > (1e-13 * found->reach)); ++step) {
-        double next[5];
-        double left;
-        minimover_5r_ik_step(found, q, damping, next);
-        left = minimover_5r_ik_error(found, next);
-        if (left < error) {
-            error = left;
-            damping = (damping > 1e-7) ? (0.2 * damping) : 0.0;
-            for (int k = 0; k < 5; ++k) {
-                q[k] = next[k];
+    int going = 1;
+    for (int step = 0; (step < found->steps) && (going != 0); ++step) {
+        if (best > (1e-13 * found->reach)) {
+            double next[5];
+            double left;
+            minimover_5r_ik_step(found, q, damping, next);
+            left = minimover_5r_ik_error(found, next);
+            if (left < best) {
+                best = left;
+                damping *= (damping > 1e-7) ? 0.2 : 0.0;
+                for (int k = 0; k < 5; ++k) {
+                    q[k] = next[k];
+                }
+            } else if ((damped != 0) && (damping < 10.0)) {
+                damping = fmax(5.0 * damping, 1e-6);
+            } else {
+                going = 0;
             }
-        } else if ((found->damped != 0) && (damping < 10.0)) {
-            damping = (damping > 0.0) ? (5.0 * damping) : 1e-6;
         } else {
-            break;
+            going = 0;
         }
     }
-    return error;
+    return best;
 }
 
 /* An angle in (-pi, pi]. */
@@ -677,33 +675,10 @@ static double minimover_5r_ik_apart(const minimover_5r_ik_search *found, int k, 
     return minimover_5r_ik_wrapped(a - b);
 }
 
-/* Take joint values up among the answers if they reach the goal and are new. */
-static void minimover_5r_ik_propose(
-    minimover_5r_ik_search *found, const double proposed[5], unsigned free_joints)
+/* Whether joint values are none of the answers so far. */
+static int minimover_5r_ik_distinct(const minimover_5r_ik_search *found, const double q[5])
 {
-    double q[5];
-    double error;
-    for (int k = 0; k < 5; ++k) {
-        if (!(fabs(proposed[k]) <= 1e100)) {
-            return;
-        }
-        q[k] = proposed[k];
-    }
-    error = minimover_5r_ik_error(found, q);
-    if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
-        error = minimover_5r_ik_improve(found, q, error);
-    }
-    if (!(error <= (1e-9 * found->reach))) {
-        /* So near a goal that is within reach that an answer may have been missed. */
-        found->doubtful = (error < (1e-3 * found->reach)) ? 1 : found->doubtful;
-        return;
-    }
-    if (found->count >= minimover_5r_IK_MAX) {
-        return;
-    }
-    for (int k = 0; k < 5; ++k) {
-        q[k] = minimover_5r_ik_wrapped(q[k]);
-    }
+    int distinct = 1;
     for (int other = 0; other < found->count; ++other) {
         int differ = 0;
         for (int k = 0; k < 5; ++k) {
@@ -712,21 +687,66 @@ static void minimover_5r_ik_propose(
             }
         }
         if (differ == 0) {
-            return;
+            distinct = 0;
         }
     }
+    return distinct;
+}
+
+/* Take joint values up among the answers if they reach the goal and are new. */
+static void minimover_5r_ik_propose(
+    minimover_5r_ik_search *found, const double proposed[5], unsigned free_joints)
+{
+    double q[5];
+    int usable = 1;
+    if (found->count >= minimover_5r_IK_MAX) {
+        usable = 0;
+    }
     for (int k = 0; k < 5; ++k) {
-        found->q[found->count][k] = q[k];
+        q[k] = proposed[k];
+        if (!(fabs(q[k]) <= 1e100)) {
+            usable = 0;
+        }
     }
-    if (found->free_joints) {
-        found->free_joints[found->count] = free_joints;
+    if (usable != 0) {
+        double error = minimover_5r_ik_error(found, q);
+        if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
+            error = minimover_5r_ik_improve(found, q, error, found->anywhere);
+        }
+        if (!(error <= (1e-9 * found->reach))) {
+            usable = 0;
+        }
     }
-    ++found->count;
+    if (usable != 0) {
+        for (int k = 0; k < 5; ++k) {
+            q[k] = minimover_5r_ik_wrapped(q[k]);
+        }
+        if (minimover_5r_ik_distinct(found, q) != 0) {
+            for (int k = 0; k < 5; ++k) {
+                found->q[found->count][k] = q[k];
+            }
+            if (found->free_joints != NULL) {
+                found->free_joints[found->count] = free_joints;
+            }
+            ++found->count;
+        }
+    }
 }
 
 /* Propose the joint values of every branch. */
 static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search *found)
 {
+    static const minimover_5r_ik_unknown blank = {
+        {0.0, 0.0},
+        {0.0, 0.0},
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        -1.0,
+        0,
+        0U,
+    };
     const double r11 = T[0];
     const double r12 = T[1];
     const double r13 = T[2];
@@ -735,12 +755,13 @@ static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search 
     const double r22 = T[5];
     const double r23 = T[6];
     const double py = T[7];
-    const double r33 = T[10];
+    const double r31 = T[8];
+    const double r32 = T[9];
     const double pz = T[11];
     const double t1 = (pz * pz) - 0.0648;
 
     /* theta1: A s + B c + C = 0 */
-    minimover_5r_ik_unknown x1 = minimover_5r_ik_open;
+    minimover_5r_ik_unknown x1 = blank;
     minimover_5r_ik_line(&x1, px, -py, 0.0, 0.72, 0.72);
     if (x1.score < 1e-3) {
         minimover_5r_ik_line(&x1, -r13, r23, 0.0, 2.0, 2.0);
@@ -750,27 +771,28 @@ static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search 
         const double c1 = x1.c[k1];
         const double s1 = x1.s[k1];
 
-        /* theta2 + theta3 + theta4: two equations A s + B c + C = 0 */
-        minimover_5r_ik_unknown x234 = minimover_5r_ik_open;
-        minimover_5r_ik_pair(&x234, 0.0, -1.0, r33, -1.0, 0.0, (c1 * r13) + (s1 * r23), 1.0);
-        minimover_5r_ik_turn(&x234, found->start[1] + found->start[2] + found->start[3], 3U, found);
-        const double c234 = x234.c[0];
-        const double s234 = x234.s[0];
-
         /* theta5: two equations A s + B c + C = 0 */
-        minimover_5r_ik_unknown x5 = minimover_5r_ik_open;
+        minimover_5r_ik_unknown x5 = blank;
         minimover_5r_ik_pair(&x5, -1.0, 0.0, (c1 * r21) - (s1 * r11), 0.0, -1.0,
             (c1 * r22) - (s1 * r12), 1.0);
         minimover_5r_ik_turn(&x5, found->start[4], 4U, found);
         const double c5 = x5.c[0];
         const double s5 = x5.s[0];
+        const double e11 = (s1 * ((c5 * r21) - (s5 * r22))) + (c1 * ((c5 * r11) - (s5 * r12)));
+
+        /* theta2 + theta3 + theta4: two equations A s + B c + C = 0 */
+        minimover_5r_ik_unknown x234 = blank;
+        minimover_5r_ik_pair(&x234, 0.0, -1.0, e11, -1.0, 0.0, (s5 * r32) - (c5 * r31), 1.0);
+        minimover_5r_ik_turn(&x234, found->start[1] + found->start[2] + found->start[3], 3U, found);
+        const double c234 = x234.c[0];
+        const double s234 = x234.s[0];
         const double angle1 = atan2(s1, c1);
-        const double angle234 = atan2(s234, c234);
         const double angle5 = atan2(s5, c5);
         const double ex = (c1 * px) + (s1 * py);
+        const double angle234 = atan2(s234, c234);
 
         /* theta3: A s + B c + C = 0 */
-        minimover_5r_ik_unknown x3 = minimover_5r_ik_open;
+        minimover_5r_ik_unknown x3 = blank;
         minimover_5r_ik_line(&x3, 0.0, -0.0648, t1 + (ex * ex), 0.0648, 0.3888);
         minimover_5r_ik_turns(&x3, found->start[2], 2U, found);
         for (int k3 = 0; k3 < x3.count; ++k3) {
@@ -778,7 +800,7 @@ static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search 
             const double s3 = x3.s[k3];
 
             /* theta2: two equations A s + B c + C = 0 */
-            minimover_5r_ik_unknown x2 = minimover_5r_ik_open;
+            minimover_5r_ik_unknown x2 = blank;
             minimover_5r_ik_pair(&x2, -ex, -pz, -0.18 * s3, -pz, ex, -((0.18 * c3) + 0.18), 0.5184);
             if (x2.score < 1e-3) {
                 const double t2 = (0.18 * c3) + 0.18;
@@ -797,99 +819,111 @@ static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search 
             const double angle2 = atan2(s2, c2);
 
             const double q[5] = {angle1, angle2, angle3, angle234 - (angle2 + angle3), angle5};
-            minimover_5r_ik_propose(found, q, x1.free_joints | x234.free_joints | x5.free_joints |
+            minimover_5r_ik_propose(found, q, x1.free_joints | x5.free_joints | x234.free_joints |
                 x3.free_joints | x2.free_joints);
         }
     }
 }
 
-/* Copy a pose; 0 where it holds what is no number, or its rotation is none. */
+/* Copy the rotation of a pose and make it exact; 0 where it is none, or no numbers. */
+static int minimover_5r_ik_rotation(const double T[16], double goal[16])
+{
+    int good = 1;
+    int rough = 1;
+    for (int k = 0; k < 11; ++k) {
+        if ((k % 4) != 3) {
+            goal[k] = T[k];
+            if (!(fabs(goal[k]) <= 2.0)) {
+                good = 0;
+            }
+        }
+    }
+    /* R (3 - R^T R) / 2 comes nearer to the rotation that is nearest to R. */
+    for (int round = 0; (round < 3) && (good != 0) && (rough != 0); ++round) {
+        double square[3][3];
+        double off = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) {
+                const double along = (goal[i] * goal[j]) + (goal[4 + i] * goal[4 + j]);
+                const double unit = (i == j) ? 1.0 : 0.0;
+                square[i][j] = along + (goal[8 + i] * goal[8 + j]);
+                off = fmax(off, fabs(square[i][j] - unit));
+            }
+        }
+        if (off > 1e-4) {
+            good = 0;
+        } else if (off > 1e-15) {
+            for (int row = 0; row < 12; row += 4) {
+                const double x[3] = {goal[row], goal[row + 1], goal[row + 2]};
+                for (int j = 0; j < 3; ++j) {
+                    const double along = (x[0] * square[0][j]) + (x[1] * square[1][j]);
+                    const double both = along + (x[2] * square[2][j]);
+                    goal[row + j] = (1.5 * x[j]) - (0.5 * both);
+                }
+            }
+        } else {
+            rough = 0;
+        }
+    }
+    return good;
+}
+
+/* Copy what is compared of a pose; 0 where it holds what is no number, or its rotation is none. */
 static int minimover_5r_ik_goal(const double T[16], double goal[16])
 {
-    double off = 1.0;
+    int good = 1;
     for (int k = 0; k < 16; ++k) {
         goal[k] = 0.0;
     }
     goal[3] = T[3];
     if (!(fabs(goal[3]) <= 1e100)) {
-        return 0;
+        good = 0;
     }
     goal[7] = T[7];
     if (!(fabs(goal[7]) <= 1e100)) {
-        return 0;
+        good = 0;
     }
     goal[11] = T[11];
     if (!(fabs(goal[11]) <= 1e100)) {
-        return 0;
+        good = 0;
     }
-    for (int k = 0; k < 11; ++k) {
-        if ((k % 4) != 3) {
-            goal[k] = T[k];
-            if (!(fabs(goal[k]) <= 2.0)) {
-                return 0;
-            }
-        }
+    if (minimover_5r_ik_rotation(T, goal) == 0) {
+        good = 0;
     }
-    /* R (3 - R^T R) / 2 comes nearer to the rotation that is nearest to R. */
-    for (int round = 0; (round < 3) && (off > 1e-15); ++round) {
-        double square[3][3];
-        off = 0.0;
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) {
-                const double along = (goal[i] * goal[j]) + (goal[4 + i] * goal[4 + j]);
-                square[i][j] = along + (goal[8 + i] * goal[8 + j]);
-                off = fmax(off, fabs(square[i][j] - ((i == j) ? 1.0 : 0.0)));
-            }
-        }
-        if (off > 1e-4) {
-            return 0;
-        }
-        if (off > 1e-15) {
-            for (int row = 0; row < 12; row += 4) {
-                const double x[3] = {goal[row], goal[row + 1], goal[row + 2]};
-                for (int j = 0; j < 3; ++j) {
-                    const double along = (x[0] * square[0][j]) + (x[1] * square[1][j]);
-                    goal[row + j] = (1.5 * x[j]) - (0.5 * (along + (x[2] * square[2][j])));
-                }
-            }
-        }
-    }
-    return 1;
+    return good;
 }
 
-/* Where equations degenerate: take more of Newton's steps; solve for poses near the goal and come
-   back by them; then give free joints other values. */
+/* Where equations degenerate: solve for a pose near the goal and come back by Newton's method; then
+   give free joints other values. */
 static void minimover_5r_ik_rescue(minimover_5r_ik_search *found)
 {
-    /* Each direction and its opposite: beyond a boundary one of the two comes back within reach. */
     static const double twists[2][6] = {
-        {0.83, -0.41, 0.57, -0.62, 0.94, 0.36}, {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75}};
+        {0.83, -0.41, 0.57, -0.62, 0.94, 0.36},
+        {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75},
+    };
     double seed[5];
     double size = 1e-6;
     found->steps = 40;
-    found->damped = 1;
     for (int j = 0; j < 5; ++j) {
         seed[j] = found->start[j];
     }
-    minimover_5r_ik_branches(found->goal, found);
     for (int k = 0; (k < 8) && (found->count == 0); ++k) {
-        const double *v = twists[(k / 2) % 2];
-        const double by = ((k % 2) == 0) ? size : -size;
+        const double *v = twists[k % 2];
         const double *T = found->goal;
         double near_by[16];
         for (int column = 0; column < 4; ++column) {
             const double x = T[column];
             const double y = T[4 + column];
             const double z = T[8 + column];
-            near_by[column] = x + (by * ((v[1] * z) - (v[2] * y)));
-            near_by[4 + column] = y + (by * ((v[2] * x) - (v[0] * z)));
-            near_by[8 + column] = z + (by * ((v[0] * y) - (v[1] * x)));
+            near_by[column] = x + (size * ((v[1] * z) - (v[2] * y)));
+            near_by[4 + column] = y + (size * ((v[2] * x) - (v[0] * z)));
+            near_by[8 + column] = z + (size * ((v[0] * y) - (v[1] * x)));
         }
         for (int column = 12; column < 16; ++column) {
             near_by[column] = T[column];
         }
         for (int row = 0; row < 3; ++row) {
-            near_by[(4 * row) + 3] += by * found->reach * v[3 + row];
+            near_by[(4 * row) + 3] += size * found->reach * v[3 + row];
         }
         minimover_5r_ik_branches(near_by, found);
         if ((k % 2) == 1) {
@@ -902,7 +936,8 @@ static void minimover_5r_ik_rescue(minimover_5r_ik_search *found)
     for (int k = 1; (k <= ((found->freed != 0) ? 24 : 1)) && (found->count == 0); ++k) {
         for (int j = 0; j < 5; ++j) {
             /* Spread by the golden angle. */
-            const double spread = 2.399963229728653 * k * (j + 1);
+            const int times = k * (j + 1);
+            const double spread = 2.399963229728653 * (double)times;
             found->start[j] = seed[j] + spread;
         }
         minimover_5r_ik_branches(found->goal, found);
@@ -915,31 +950,35 @@ static void minimover_5r_ik_rescue(minimover_5r_ik_search *found)
 /* Put the answers nearest to the seed first. */
 static void minimover_5r_ik_sort(minimover_5r_ik_search *found)
 {
-    double far[minimover_5r_IK_MAX];
+    double far_off[minimover_5r_IK_MAX];
     for (int one = 0; one < found->count; ++one) {
         double q[5];
         double distance = 0.0;
-        const unsigned mask = found->free_joints ? found->free_joints[one] : 0U;
+        unsigned mask = 0U;
         int place = one;
+        if (found->free_joints != NULL) {
+            mask = found->free_joints[one];
+        }
         for (int k = 0; k < 5; ++k) {
             const double apart = minimover_5r_ik_apart(found, k, found->q[one][k], found->start[k]);
             q[k] = found->q[one][k];
             distance += apart * apart;
         }
-        for (; (place > 0) && (far[place - 1] > distance); --place) {
-            far[place] = far[place - 1];
+        while ((place > 0) && (far_off[place - 1] > distance)) {
+            far_off[place] = far_off[place - 1];
             for (int k = 0; k < 5; ++k) {
                 found->q[place][k] = found->q[place - 1][k];
             }
-            if (found->free_joints) {
+            if (found->free_joints != NULL) {
                 found->free_joints[place] = found->free_joints[place - 1];
             }
+            --place;
         }
-        far[place] = distance;
+        far_off[place] = distance;
         for (int k = 0; k < 5; ++k) {
             found->q[place][k] = q[k];
         }
-        if (found->free_joints) {
+        if (found->free_joints != NULL) {
             found->free_joints[place] = mask;
         }
     }
@@ -950,28 +989,26 @@ int minimover_5r_ik(const double T[16], const double *seed, double q[minimover_5
 {
     double goal[16];
     minimover_5r_ik_search found;
-    if (minimover_5r_ik_goal(T, goal) == 0) {
-        return 0;
-    }
     found.goal = goal;
     for (int k = 0; k < 5; ++k) {
-        found.start[k] = seed ? seed[k] : 0.0;
+        found.start[k] = (seed != NULL) ? seed[k] : 0.0;
     }
     found.q = q;
     found.free_joints = free_joints;
     found.reach = 0.36;
     found.count = 0;
     found.steps = 6;
-    found.damped = 0;
     found.anywhere = 0;
     found.slack = 1e-9;
     found.doubtful = 0;
     found.freed = 0;
-    minimover_5r_ik_branches(goal, &found);
-    if ((found.count == 0) && (found.doubtful != 0)) {
-        minimover_5r_ik_rescue(&found);
+    if (minimover_5r_ik_goal(T, goal) != 0) {
+        minimover_5r_ik_branches(goal, &found);
+        if ((found.count == 0) && (found.doubtful != 0)) {
+            minimover_5r_ik_rescue(&found);
+        }
     }
-    if (seed) {
+    if (seed != NULL) {
         minimover_5r_ik_sort(&found);
     }
     return found.count;

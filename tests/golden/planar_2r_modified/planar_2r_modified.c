@@ -7,6 +7,7 @@
 #include "planar_2r_modified.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #ifndef planar_2r_modified_TABLE_e83f6e8c87dee3fe
 #error "planar_2r_modified.h and planar_2r_modified.c come from different tables: generate both again"
@@ -296,11 +297,10 @@ typedef struct planar_2r_modified_ik_search {
     double reach;
     int count;
     int steps; /* of Newton's method at most */
-    int damped; /* whether a step that makes it worse is taken again, shorter */
-    int anywhere; /* whether any proposal is worth them, and what is badly conditioned is free */
+    int anywhere; /* whether any proposal is worth them, damped */
     double slack; /* how far beyond the reach a target counts as on its boundary */
     int doubtful; /* an equation was badly conditioned: an answer may be missing */
-    int freed; /* a joint is free, or nearly: another value may lead to an answer */
+    int freed; /* a joint was left free: another value may lead to an answer */
 } planar_2r_modified_ik_search;
 
 /* An unknown: its values as cosines and sines, a slide's in c, and how well it is conditioned. */
@@ -315,18 +315,6 @@ typedef struct planar_2r_modified_ik_unknown {
     int count;
     unsigned free_joints;
 } planar_2r_modified_ik_unknown;
-
-static const planar_2r_modified_ik_unknown planar_2r_modified_ik_open = {
-    {0.0, 0.0},
-    {0.0, 0.0},
-    0.0,
-    0.0,
-    0.0,
-    0.0,
-    -1.0,
-    0,
-    0U,
-};
 
 /* Leave an angle free: it has the seed's value. */
 static void planar_2r_modified_ik_leave(planar_2r_modified_ik_unknown *x, double seed,
@@ -359,28 +347,31 @@ static void planar_2r_modified_ik_turns(
 {
     const double h = sqrt((x->a * x->a) + (x->b * x->b));
     const double beyond = fabs(x->rest) - h;
-    if (!(x->score > ((found->anywhere != 0) ? 1e-5 : 1e-12))) {
+    if (!(x->score > 1e-12)) {
         found->doubtful = 1;
-        if (fabs(x->rest) <= (found->slack * x->whole)) {
+        if (fabs(x->rest) <= (1e-9 * x->whole)) {
             found->freed = 1;
             planar_2r_modified_ik_leave(x, seed, place);
         }
-        return;
-    }
-    if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
-        found->doubtful = 1;
-        found->freed = (x->score < 1e-5) ? 1 : found->freed;
-    }
-    if (beyond <= (found->slack * h)) {
-        /* A goal on the boundary may be beyond it by rounding. */
-        const double c = (beyond > 0.0) ? ((x->rest > 0.0) ? h : -h) : x->rest;
-        const double root = sqrt((h - c) * (h + c));
-        const double scale = 1.0 / (h * h);
-        x->c[0] = -((x->b * c) + (x->a * root)) * scale;
-        x->s[0] = ((x->b * root) - (x->a * c)) * scale;
-        x->c[1] = ((x->a * root) - (x->b * c)) * scale;
-        x->s[1] = -((x->a * c) + (x->b * root)) * scale;
-        x->count = (root > 0.0) ? 2 : 1;
+    } else {
+        if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
+            found->doubtful = 1;
+        }
+        if (beyond <= (found->slack * h)) {
+            const double edge = (x->rest > 0.0) ? h : -h;
+            /* A goal on the boundary may be beyond it by rounding. */
+            const double c = (beyond > 0.0) ? edge : x->rest;
+            const double root = sqrt((h - c) * (h + c));
+            const double scale = 1.0 / (h * h);
+            x->c[0] = -((x->b * c) + (x->a * root)) * scale;
+            x->s[0] = ((x->b * root) - (x->a * c)) * scale;
+            x->c[1] = ((x->a * root) - (x->b * c)) * scale;
+            x->s[1] = -((x->a * c) + (x->b * root)) * scale;
+            x->count = 1;
+            if (root > 0.0) {
+                x->count = 2;
+            }
+        }
     }
 }
 
@@ -416,10 +407,10 @@ static void planar_2r_modified_ik_turn(
 {
     if (x->score < 1e-5) {
         found->doubtful = 1;
-        found->freed = 1;
     }
     x->count = 1;
-    if (!(x->score > ((found->anywhere != 0) ? 1e-5 : 1e-24))) {
+    if (!(x->score > 1e-24)) {
+        found->freed = 1;
         planar_2r_modified_ik_leave(x, seed, place);
     }
 }
@@ -502,29 +493,36 @@ static void planar_2r_modified_ik_step(
     }
 }
 
-/* Improve joint values by Newton's method; the error that is left. */
+/* Improve joint values by Newton's method, damped where that makes them worse if `damped` says so;
+   the error that is left. */
 static double planar_2r_modified_ik_improve(
-    const planar_2r_modified_ik_search *found, double q[2], double error)
+    const planar_2r_modified_ik_search *found, double q[2], double error, int damped)
 {
+    double best = error;
     double damping = 0.0;
-    for (int step = 0; (step < found->steps) && (error > (1e-13 * found->reach)); ++step) {
-        double next[2];
-        double left;
-        planar_2r_modified_ik_step(found, q, damping, next);
-        left = planar_2r_modified_ik_error(found, next);
-        if (left < error) {
-            error = left;
-            damping = (damping > 1e-7) ? (0.2 * damping) : 0.0;
-            for (int k = 0; k < 2; ++k) {
-                q[k] = next[k];
+    int going = 1;
+    for (int step = 0; (step < found->steps) && (going != 0); ++step) {
+        if (best > (1e-13 * found->reach)) {
+            double next[2];
+            double left;
+            planar_2r_modified_ik_step(found, q, damping, next);
+            left = planar_2r_modified_ik_error(found, next);
+            if (left < best) {
+                best = left;
+                damping *= (damping > 1e-7) ? 0.2 : 0.0;
+                for (int k = 0; k < 2; ++k) {
+                    q[k] = next[k];
+                }
+            } else if ((damped != 0) && (damping < 10.0)) {
+                damping = fmax(5.0 * damping, 1e-6);
+            } else {
+                going = 0;
             }
-        } else if ((found->damped != 0) && (damping < 10.0)) {
-            damping = (damping > 0.0) ? (5.0 * damping) : 1e-6;
         } else {
-            break;
+            going = 0;
         }
     }
-    return error;
+    return best;
 }
 
 /* An angle in (-pi, pi]. */
@@ -543,33 +541,11 @@ static double planar_2r_modified_ik_apart(const planar_2r_modified_ik_search *fo
     return planar_2r_modified_ik_wrapped(a - b);
 }
 
-/* Take joint values up among the answers if they reach the goal and are new. */
-static void planar_2r_modified_ik_propose(
-    planar_2r_modified_ik_search *found, const double proposed[2], unsigned free_joints)
+/* Whether joint values are none of the answers so far. */
+static int planar_2r_modified_ik_distinct(const planar_2r_modified_ik_search *found,
+        const double q[2])
 {
-    double q[2];
-    double error;
-    for (int k = 0; k < 2; ++k) {
-        if (!(fabs(proposed[k]) <= 1e100)) {
-            return;
-        }
-        q[k] = proposed[k];
-    }
-    error = planar_2r_modified_ik_error(found, q);
-    if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
-        error = planar_2r_modified_ik_improve(found, q, error);
-    }
-    if (!(error <= (1e-9 * found->reach))) {
-        /* So near a goal that is within reach that an answer may have been missed. */
-        found->doubtful = (error < (1e-3 * found->reach)) ? 1 : found->doubtful;
-        return;
-    }
-    if (found->count >= planar_2r_modified_IK_MAX) {
-        return;
-    }
-    for (int k = 0; k < 2; ++k) {
-        q[k] = planar_2r_modified_ik_wrapped(q[k]);
-    }
+    int distinct = 1;
     for (int other = 0; other < found->count; ++other) {
         int differ = 0;
         for (int k = 0; k < 2; ++k) {
@@ -578,26 +554,71 @@ static void planar_2r_modified_ik_propose(
             }
         }
         if (differ == 0) {
-            return;
+            distinct = 0;
         }
     }
+    return distinct;
+}
+
+/* Take joint values up among the answers if they reach the goal and are new. */
+static void planar_2r_modified_ik_propose(
+    planar_2r_modified_ik_search *found, const double proposed[2], unsigned free_joints)
+{
+    double q[2];
+    int usable = 1;
+    if (found->count >= planar_2r_modified_IK_MAX) {
+        usable = 0;
+    }
     for (int k = 0; k < 2; ++k) {
-        found->q[found->count][k] = q[k];
+        q[k] = proposed[k];
+        if (!(fabs(q[k]) <= 1e100)) {
+            usable = 0;
+        }
     }
-    if (found->free_joints) {
-        found->free_joints[found->count] = free_joints;
+    if (usable != 0) {
+        double error = planar_2r_modified_ik_error(found, q);
+        if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
+            error = planar_2r_modified_ik_improve(found, q, error, found->anywhere);
+        }
+        if (!(error <= (1e-9 * found->reach))) {
+            usable = 0;
+        }
     }
-    ++found->count;
+    if (usable != 0) {
+        for (int k = 0; k < 2; ++k) {
+            q[k] = planar_2r_modified_ik_wrapped(q[k]);
+        }
+        if (planar_2r_modified_ik_distinct(found, q) != 0) {
+            for (int k = 0; k < 2; ++k) {
+                found->q[found->count][k] = q[k];
+            }
+            if (found->free_joints != NULL) {
+                found->free_joints[found->count] = free_joints;
+            }
+            ++found->count;
+        }
+    }
 }
 
 /* Propose the joint values of every branch. */
 static void planar_2r_modified_ik_branches(const double T[16], planar_2r_modified_ik_search *found)
 {
+    static const planar_2r_modified_ik_unknown blank = {
+        {0.0, 0.0},
+        {0.0, 0.0},
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        -1.0,
+        0,
+        0U,
+    };
     const double px = T[3];
     const double py = T[7];
 
     /* theta2: A s + B c + C = 0 */
-    planar_2r_modified_ik_unknown x2 = planar_2r_modified_ik_open;
+    planar_2r_modified_ik_unknown x2 = blank;
     planar_2r_modified_ik_line(&x2, 0.0, -108.0, (px * px) + (py * py) - 117.0, 108.0, 675.0);
     planar_2r_modified_ik_turns(&x2, found->start[1], 1U, found);
     for (int k2 = 0; k2 < x2.count; ++k2) {
@@ -607,7 +628,7 @@ static void planar_2r_modified_ik_branches(const double T[16], planar_2r_modifie
         const double t2 = (9.0 * c2) + 6.0;
 
         /* theta1: two equations A s + B c + C = 0 */
-        planar_2r_modified_ik_unknown x1 = planar_2r_modified_ik_open;
+        planar_2r_modified_ik_unknown x1 = blank;
         planar_2r_modified_ik_pair(&x1, t1, -t2, px, -t2, -t1, py, 576.0);
         if (x1.score < 1e-3) {
             planar_2r_modified_ik_pair(&x1, -px, py, -t1, t1, -t2, px, 720.0);
@@ -626,56 +647,55 @@ static void planar_2r_modified_ik_branches(const double T[16], planar_2r_modifie
     }
 }
 
-/* Copy a pose; 0 where it holds what is no number, or its rotation is none. */
+/* Copy what is compared of a pose; 0 where it holds what is no number, or its rotation is none. */
 static int planar_2r_modified_ik_goal(const double T[16], double goal[16])
 {
+    int good = 1;
     for (int k = 0; k < 16; ++k) {
         goal[k] = 0.0;
     }
     goal[3] = T[3];
     if (!(fabs(goal[3]) <= 1e100)) {
-        return 0;
+        good = 0;
     }
     goal[7] = T[7];
     if (!(fabs(goal[7]) <= 1e100)) {
-        return 0;
+        good = 0;
     }
-    return 1;
+    return good;
 }
 
-/* Where equations degenerate: take more of Newton's steps; solve for poses near the goal and come
-   back by them; then give free joints other values. */
+/* Where equations degenerate: solve for a pose near the goal and come back by Newton's method; then
+   give free joints other values. */
 static void planar_2r_modified_ik_rescue(planar_2r_modified_ik_search *found)
 {
-    /* Each direction and its opposite: beyond a boundary one of the two comes back within reach. */
     static const double twists[2][6] = {
-        {0.83, -0.41, 0.57, -0.62, 0.94, 0.36}, {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75}};
+        {0.83, -0.41, 0.57, -0.62, 0.94, 0.36},
+        {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75},
+    };
     double seed[2];
     double size = 1e-6;
     found->steps = 40;
-    found->damped = 1;
     for (int j = 0; j < 2; ++j) {
         seed[j] = found->start[j];
     }
-    planar_2r_modified_ik_branches(found->goal, found);
     for (int k = 0; (k < 8) && (found->count == 0); ++k) {
-        const double *v = twists[(k / 2) % 2];
-        const double by = ((k % 2) == 0) ? size : -size;
+        const double *v = twists[k % 2];
         const double *T = found->goal;
         double near_by[16];
         for (int column = 0; column < 4; ++column) {
             const double x = T[column];
             const double y = T[4 + column];
             const double z = T[8 + column];
-            near_by[column] = x + (by * ((v[1] * z) - (v[2] * y)));
-            near_by[4 + column] = y + (by * ((v[2] * x) - (v[0] * z)));
-            near_by[8 + column] = z + (by * ((v[0] * y) - (v[1] * x)));
+            near_by[column] = x + (size * ((v[1] * z) - (v[2] * y)));
+            near_by[4 + column] = y + (size * ((v[2] * x) - (v[0] * z)));
+            near_by[8 + column] = z + (size * ((v[0] * y) - (v[1] * x)));
         }
         for (int column = 12; column < 16; ++column) {
             near_by[column] = T[column];
         }
         for (int row = 0; row < 3; ++row) {
-            near_by[(4 * row) + 3] += by * found->reach * v[3 + row];
+            near_by[(4 * row) + 3] += size * found->reach * v[3 + row];
         }
         planar_2r_modified_ik_branches(near_by, found);
         if ((k % 2) == 1) {
@@ -688,7 +708,8 @@ static void planar_2r_modified_ik_rescue(planar_2r_modified_ik_search *found)
     for (int k = 1; (k <= ((found->freed != 0) ? 24 : 1)) && (found->count == 0); ++k) {
         for (int j = 0; j < 2; ++j) {
             /* Spread by the golden angle. */
-            const double spread = 2.399963229728653 * k * (j + 1);
+            const int times = k * (j + 1);
+            const double spread = 2.399963229728653 * (double)times;
             found->start[j] = seed[j] + spread;
         }
         planar_2r_modified_ik_branches(found->goal, found);
@@ -701,32 +722,36 @@ static void planar_2r_modified_ik_rescue(planar_2r_modified_ik_search *found)
 /* Put the answers nearest to the seed first. */
 static void planar_2r_modified_ik_sort(planar_2r_modified_ik_search *found)
 {
-    double far[planar_2r_modified_IK_MAX];
+    double far_off[planar_2r_modified_IK_MAX];
     for (int one = 0; one < found->count; ++one) {
         double q[2];
         double distance = 0.0;
-        const unsigned mask = found->free_joints ? found->free_joints[one] : 0U;
+        unsigned mask = 0U;
         int place = one;
+        if (found->free_joints != NULL) {
+            mask = found->free_joints[one];
+        }
         for (int k = 0; k < 2; ++k) {
             const double apart = planar_2r_modified_ik_apart(found, k, found->q[one][k],
                     found->start[k]);
             q[k] = found->q[one][k];
             distance += apart * apart;
         }
-        for (; (place > 0) && (far[place - 1] > distance); --place) {
-            far[place] = far[place - 1];
+        while ((place > 0) && (far_off[place - 1] > distance)) {
+            far_off[place] = far_off[place - 1];
             for (int k = 0; k < 2; ++k) {
                 found->q[place][k] = found->q[place - 1][k];
             }
-            if (found->free_joints) {
+            if (found->free_joints != NULL) {
                 found->free_joints[place] = found->free_joints[place - 1];
             }
+            --place;
         }
-        far[place] = distance;
+        far_off[place] = distance;
         for (int k = 0; k < 2; ++k) {
             found->q[place][k] = q[k];
         }
-        if (found->free_joints) {
+        if (found->free_joints != NULL) {
             found->free_joints[place] = mask;
         }
     }
@@ -737,28 +762,26 @@ int planar_2r_modified_ik(const double T[16], const double *seed,
 {
     double goal[16];
     planar_2r_modified_ik_search found;
-    if (planar_2r_modified_ik_goal(T, goal) == 0) {
-        return 0;
-    }
     found.goal = goal;
     for (int k = 0; k < 2; ++k) {
-        found.start[k] = seed ? seed[k] : 0.0;
+        found.start[k] = (seed != NULL) ? seed[k] : 0.0;
     }
     found.q = q;
     found.free_joints = free_joints;
     found.reach = 15.0;
     found.count = 0;
     found.steps = 6;
-    found.damped = 0;
     found.anywhere = 0;
     found.slack = 1e-9;
     found.doubtful = 0;
     found.freed = 0;
-    planar_2r_modified_ik_branches(goal, &found);
-    if ((found.count == 0) && (found.doubtful != 0)) {
-        planar_2r_modified_ik_rescue(&found);
+    if (planar_2r_modified_ik_goal(T, goal) != 0) {
+        planar_2r_modified_ik_branches(goal, &found);
+        if ((found.count == 0) && (found.doubtful != 0)) {
+            planar_2r_modified_ik_rescue(&found);
+        }
     }
-    if (seed) {
+    if (seed != NULL) {
         planar_2r_modified_ik_sort(&found);
     }
     return found.count;

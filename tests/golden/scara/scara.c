@@ -7,6 +7,7 @@
 #include "scara.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #ifndef scara_TABLE_81e0e65491eb1729
 #error "scara.h and scara.c come from different tables: generate both again"
@@ -367,11 +368,10 @@ typedef struct scara_ik_search {
     double reach;
     int count;
     int steps; /* of Newton's method at most */
-    int damped; /* whether a step that makes it worse is taken again, shorter */
-    int anywhere; /* whether any proposal is worth them, and what is badly conditioned is free */
+    int anywhere; /* whether any proposal is worth them, damped */
     double slack; /* how far beyond the reach a target counts as on its boundary */
     int doubtful; /* an equation was badly conditioned: an answer may be missing */
-    int freed; /* a joint is free, or nearly: another value may lead to an answer */
+    int freed; /* a joint was left free: another value may lead to an answer */
 } scara_ik_search;
 
 /* An unknown: its values as cosines and sines, a slide's in c, and how well it is conditioned. */
@@ -386,18 +386,6 @@ typedef struct scara_ik_unknown {
     int count;
     unsigned free_joints;
 } scara_ik_unknown;
-
-static const scara_ik_unknown scara_ik_open = {
-    {0.0, 0.0},
-    {0.0, 0.0},
-    0.0,
-    0.0,
-    0.0,
-    0.0,
-    -1.0,
-    0,
-    0U,
-};
 
 /* Leave an angle free: it has the seed's value. */
 static void scara_ik_leave(scara_ik_unknown *x, double seed, unsigned place)
@@ -428,28 +416,31 @@ static void scara_ik_turns(
 {
     const double h = sqrt((x->a * x->a) + (x->b * x->b));
     const double beyond = fabs(x->rest) - h;
-    if (!(x->score > ((found->anywhere != 0) ? 1e-5 : 1e-12))) {
+    if (!(x->score > 1e-12)) {
         found->doubtful = 1;
-        if (fabs(x->rest) <= (found->slack * x->whole)) {
+        if (fabs(x->rest) <= (1e-9 * x->whole)) {
             found->freed = 1;
             scara_ik_leave(x, seed, place);
         }
-        return;
-    }
-    if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
-        found->doubtful = 1;
-        found->freed = (x->score < 1e-5) ? 1 : found->freed;
-    }
-    if (beyond <= (found->slack * h)) {
-        /* A goal on the boundary may be beyond it by rounding. */
-        const double c = (beyond > 0.0) ? ((x->rest > 0.0) ? h : -h) : x->rest;
-        const double root = sqrt((h - c) * (h + c));
-        const double scale = 1.0 / (h * h);
-        x->c[0] = -((x->b * c) + (x->a * root)) * scale;
-        x->s[0] = ((x->b * root) - (x->a * c)) * scale;
-        x->c[1] = ((x->a * root) - (x->b * c)) * scale;
-        x->s[1] = -((x->a * c) + (x->b * root)) * scale;
-        x->count = (root > 0.0) ? 2 : 1;
+    } else {
+        if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
+            found->doubtful = 1;
+        }
+        if (beyond <= (found->slack * h)) {
+            const double edge = (x->rest > 0.0) ? h : -h;
+            /* A goal on the boundary may be beyond it by rounding. */
+            const double c = (beyond > 0.0) ? edge : x->rest;
+            const double root = sqrt((h - c) * (h + c));
+            const double scale = 1.0 / (h * h);
+            x->c[0] = -((x->b * c) + (x->a * root)) * scale;
+            x->s[0] = ((x->b * root) - (x->a * c)) * scale;
+            x->c[1] = ((x->a * root) - (x->b * c)) * scale;
+            x->s[1] = -((x->a * c) + (x->b * root)) * scale;
+            x->count = 1;
+            if (root > 0.0) {
+                x->count = 2;
+            }
+        }
     }
 }
 
@@ -484,10 +475,10 @@ static void scara_ik_turn(
 {
     if (x->score < 1e-5) {
         found->doubtful = 1;
-        found->freed = 1;
     }
     x->count = 1;
-    if (!(x->score > ((found->anywhere != 0) ? 1e-5 : 1e-24))) {
+    if (!(x->score > 1e-24)) {
+        found->freed = 1;
         scara_ik_leave(x, seed, place);
     }
 }
@@ -507,10 +498,10 @@ static void scara_ik_shift(
 {
     if (x->score < 1e-5) {
         found->doubtful = 1;
-        found->freed = 1;
     }
     x->count = 1;
-    if (!(x->score > ((found->anywhere != 0) ? 1e-5 : 1e-12))) {
+    if (!(x->score > 1e-12)) {
+        found->freed = 1;
         x->c[0] = seed;
         x->free_joints = 1U << place;
     }
@@ -616,29 +607,36 @@ static void scara_ik_step(
     }
 }
 
-/* Improve joint values by Newton's method; the error that is left. */
+/* Improve joint values by Newton's method, damped where that makes them worse if `damped` says so;
+   the error that is left. */
 static double scara_ik_improve(
-    const scara_ik_search *found, double q[4], double error)
+    const scara_ik_search *found, double q[4], double error, int damped)
 {
+    double best = error;
     double damping = 0.0;
-    for (int step = 0; (step < found->steps) && (error > (1e-13 * found->reach)); ++step) {
-        double next[4];
-        double left;
-        scara_ik_step(found, q, damping, next);
-        left = scara_ik_error(found, next);
-        if (left < error) {
-            error = left;
-            damping = (damping > 1e-7) ? (0.2 * damping) : 0.0;
-            for (int k = 0; k < 4; ++k) {
-                q[k] = next[k];
+    int going = 1;
+    for (int step = 0; (step < found->steps) && (going != 0); ++step) {
+        if (best > (1e-13 * found->reach)) {
+            double next[4];
+            double left;
+            scara_ik_step(found, q, damping, next);
+            left = scara_ik_error(found, next);
+            if (left < best) {
+                best = left;
+                damping *= (damping > 1e-7) ? 0.2 : 0.0;
+                for (int k = 0; k < 4; ++k) {
+                    q[k] = next[k];
+                }
+            } else if ((damped != 0) && (damping < 10.0)) {
+                damping = fmax(5.0 * damping, 1e-6);
+            } else {
+                going = 0;
             }
-        } else if ((found->damped != 0) && (damping < 10.0)) {
-            damping = (damping > 0.0) ? (5.0 * damping) : 1e-6;
         } else {
-            break;
+            going = 0;
         }
     }
-    return error;
+    return best;
 }
 
 /* An angle in (-pi, pi]. */
@@ -648,14 +646,6 @@ static double scara_ik_wrapped(double x)
     return x - (2.0 * scara_ik_PI * turns);
 }
 
-/* Lower and upper limit of each joint variable; infinite where the table gives none. */
-static const double scara_ik_limits[4][2] = {
-    {-2.9670597283903604, 2.9670597283903604},
-    {-2.530727415391778, 2.530727415391778},
-    {-0.2, 0.0},
-    {-HUGE_VAL, HUGE_VAL},
-};
-
 /* The difference of two values of joint variable k, slides as parts of the reach. */
 static double scara_ik_apart(const scara_ik_search *found, int k, double a, double b)
 {
@@ -663,34 +653,10 @@ static double scara_ik_apart(const scara_ik_search *found, int k, double a, doub
     return (turns[k] != 0) ? scara_ik_wrapped(a - b) : ((a - b) / found->reach);
 }
 
-/* Take joint values up among the answers if they reach the goal and are new. */
-static void scara_ik_propose(
-    scara_ik_search *found, const double proposed[4], unsigned free_joints)
+/* Whether joint values are none of the answers so far. */
+static int scara_ik_distinct(const scara_ik_search *found, const double q[4])
 {
-    double q[4];
-    double error;
-    for (int k = 0; k < 4; ++k) {
-        if (!(fabs(proposed[k]) <= 1e100)) {
-            return;
-        }
-        q[k] = proposed[k];
-    }
-    error = scara_ik_error(found, q);
-    if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
-        error = scara_ik_improve(found, q, error);
-    }
-    if (!(error <= (1e-9 * found->reach))) {
-        /* So near a goal that is within reach that an answer may have been missed. */
-        found->doubtful = (error < (1e-3 * found->reach)) ? 1 : found->doubtful;
-        return;
-    }
-    if (found->count >= scara_IK_MAX) {
-        return;
-    }
-    for (int k = 0; k < 4; ++k) {
-        static const int turns[4] = {1, 1, 0, 1};
-        q[k] = (turns[k] != 0) ? scara_ik_wrapped(q[k]) : q[k];
-    }
+    int distinct = 1;
     for (int other = 0; other < found->count; ++other) {
         int differ = 0;
         for (int k = 0; k < 4; ++k) {
@@ -699,21 +665,67 @@ static void scara_ik_propose(
             }
         }
         if (differ == 0) {
-            return;
+            distinct = 0;
         }
     }
+    return distinct;
+}
+
+/* Take joint values up among the answers if they reach the goal and are new. */
+static void scara_ik_propose(
+    scara_ik_search *found, const double proposed[4], unsigned free_joints)
+{
+    double q[4];
+    int usable = 1;
+    if (found->count >= scara_IK_MAX) {
+        usable = 0;
+    }
     for (int k = 0; k < 4; ++k) {
-        found->q[found->count][k] = q[k];
+        q[k] = proposed[k];
+        if (!(fabs(q[k]) <= 1e100)) {
+            usable = 0;
+        }
     }
-    if (found->free_joints) {
-        found->free_joints[found->count] = free_joints;
+    if (usable != 0) {
+        double error = scara_ik_error(found, q);
+        if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
+            error = scara_ik_improve(found, q, error, found->anywhere);
+        }
+        if (!(error <= (1e-9 * found->reach))) {
+            usable = 0;
+        }
     }
-    ++found->count;
+    if (usable != 0) {
+        for (int k = 0; k < 4; ++k) {
+            static const int turns[4] = {1, 1, 0, 1};
+            q[k] = (turns[k] != 0) ? scara_ik_wrapped(q[k]) : q[k];
+        }
+        if (scara_ik_distinct(found, q) != 0) {
+            for (int k = 0; k < 4; ++k) {
+                found->q[found->count][k] = q[k];
+            }
+            if (found->free_joints != NULL) {
+                found->free_joints[found->count] = free_joints;
+            }
+            ++found->count;
+        }
+    }
 }
 
 /* Propose the joint values of every branch. */
 static void scara_ik_branches(const double T[16], scara_ik_search *found)
 {
+    static const scara_ik_unknown blank = {
+        {0.0, 0.0},
+        {0.0, 0.0},
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        -1.0,
+        0,
+        0U,
+    };
     const double r11 = T[0];
     const double r13 = T[2];
     const double px = T[3];
@@ -724,13 +736,13 @@ static void scara_ik_branches(const double T[16], scara_ik_search *found)
     const double pz = T[11];
 
     /* q3: A q + C = 0 */
-    scara_ik_unknown x3 = scara_ik_open;
+    scara_ik_unknown x3 = blank;
     scara_ik_slide(&x3, -1.0, pz - 0.4 - (0.05 * r33), 1.0);
     scara_ik_shift(&x3, found->start[2], 2U, found);
     const double x3_ = x3.c[0];
 
     /* q1 + q2 + q4: two equations A s + B c + C = 0 */
-    scara_ik_unknown x124 = scara_ik_open;
+    scara_ik_unknown x124 = blank;
     scara_ik_pair(&x124, 0.0, -1.0, r11, -1.0, 0.0, r21, 1.0);
     scara_ik_turn(&x124, found->start[0] + found->start[1] + found->start[3], 3U, found);
     const double c124 = x124.c[0];
@@ -740,7 +752,7 @@ static void scara_ik_branches(const double T[16], scara_ik_search *found)
     const double angle124 = atan2(s124, c124);
 
     /* q2: A s + B c + C = 0 */
-    scara_ik_unknown x2 = scara_ik_open;
+    scara_ik_unknown x2 = blank;
     scara_ik_line(&x2, 0.0, -0.17875, (t1 * t1) + (t2 * t2) - 0.18125, 0.17875, 2.565);
     scara_ik_turns(&x2, found->start[1], 1U, found);
     for (int k2 = 0; k2 < x2.count; ++k2) {
@@ -750,7 +762,7 @@ static void scara_ik_branches(const double T[16], scara_ik_search *found)
         const double t4 = (0.275 * c2) + 0.325;
 
         /* q1: two equations A s + B c + C = 0 */
-        scara_ik_unknown x1 = scara_ik_open;
+        scara_ik_unknown x1 = blank;
         scara_ik_pair(&x1, t3, -t4, t1, -t4, -t3, t2, 0.765625);
         if (x1.score < 1e-3) {
             scara_ik_pair(&x1, -t4, -t3, t2, t3, -t4, (x3_ * r13) + t1, 0.765625);
@@ -770,93 +782,105 @@ static void scara_ik_branches(const double T[16], scara_ik_search *found)
     }
 }
 
-/* Copy a pose; 0 where it holds what is no number, or its rotation is none. */
+/* Copy the rotation of a pose and make it exact; 0 where it is none, or no numbers. */
+static int scara_ik_rotation(const double T[16], double goal[16])
+{
+    int good = 1;
+    int rough = 1;
+    for (int k = 0; k < 11; ++k) {
+        if ((k % 4) != 3) {
+            goal[k] = T[k];
+            if (!(fabs(goal[k]) <= 2.0)) {
+                good = 0;
+            }
+        }
+    }
+    /* R (3 - R^T R) / 2 comes nearer to the rotation that is nearest to R. */
+    for (int round = 0; (round < 3) && (good != 0) && (rough != 0); ++round) {
+        double square[3][3];
+        double off = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) {
+                const double along = (goal[i] * goal[j]) + (goal[4 + i] * goal[4 + j]);
+                const double unit = (i == j) ? 1.0 : 0.0;
+                square[i][j] = along + (goal[8 + i] * goal[8 + j]);
+                off = fmax(off, fabs(square[i][j] - unit));
+            }
+        }
+        if (off > 1e-4) {
+            good = 0;
+        } else if (off > 1e-15) {
+            for (int row = 0; row < 12; row += 4) {
+                const double x[3] = {goal[row], goal[row + 1], goal[row + 2]};
+                for (int j = 0; j < 3; ++j) {
+                    const double along = (x[0] * square[0][j]) + (x[1] * square[1][j]);
+                    const double both = along + (x[2] * square[2][j]);
+                    goal[row + j] = (1.5 * x[j]) - (0.5 * both);
+                }
+            }
+        } else {
+            rough = 0;
+        }
+    }
+    return good;
+}
+
+/* Copy what is compared of a pose; 0 where it holds what is no number, or its rotation is none. */
 static int scara_ik_goal(const double T[16], double goal[16])
 {
-    double off = 1.0;
+    int good = 1;
     for (int k = 0; k < 16; ++k) {
         goal[k] = 0.0;
     }
     goal[3] = T[3];
     if (!(fabs(goal[3]) <= 1e100)) {
-        return 0;
+        good = 0;
     }
     goal[7] = T[7];
     if (!(fabs(goal[7]) <= 1e100)) {
-        return 0;
+        good = 0;
     }
     goal[11] = T[11];
     if (!(fabs(goal[11]) <= 1e100)) {
-        return 0;
+        good = 0;
     }
-    for (int k = 0; k < 11; ++k) {
-        if ((k % 4) != 3) {
-            goal[k] = T[k];
-            if (!(fabs(goal[k]) <= 2.0)) {
-                return 0;
-            }
-        }
+    if (scara_ik_rotation(T, goal) == 0) {
+        good = 0;
     }
-    /* R (3 - R^T R) / 2 comes nearer to the rotation that is nearest to R. */
-    for (int round = 0; (round < 3) && (off > 1e-15); ++round) {
-        double square[3][3];
-        off = 0.0;
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) {
-                const double along = (goal[i] * goal[j]) + (goal[4 + i] * goal[4 + j]);
-                square[i][j] = along + (goal[8 + i] * goal[8 + j]);
-                off = fmax(off, fabs(square[i][j] - ((i == j) ? 1.0 : 0.0)));
-            }
-        }
-        if (off > 1e-4) {
-            return 0;
-        }
-        if (off > 1e-15) {
-            for (int row = 0; row < 12; row += 4) {
-                const double x[3] = {goal[row], goal[row + 1], goal[row + 2]};
-                for (int j = 0; j < 3; ++j) {
-                    const double along = (x[0] * square[0][j]) + (x[1] * square[1][j]);
-                    goal[row + j] = (1.5 * x[j]) - (0.5 * (along + (x[2] * square[2][j])));
-                }
-            }
-        }
-    }
-    return 1;
+    return good;
 }
 
-/* Where equations degenerate: take more of Newton's steps; solve for poses near the goal and come
-   back by them; then give free joints other values. */
+/* Where equations degenerate: solve for a pose near the goal and come back by Newton's method; then
+   give free joints other values. */
 static void scara_ik_rescue(scara_ik_search *found)
 {
-    /* Each direction and its opposite: beyond a boundary one of the two comes back within reach. */
     static const double twists[2][6] = {
-        {0.83, -0.41, 0.57, -0.62, 0.94, 0.36}, {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75}};
+        {0.83, -0.41, 0.57, -0.62, 0.94, 0.36},
+        {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75},
+    };
     double seed[4];
     double size = 1e-6;
     found->steps = 40;
-    found->damped = 1;
     for (int j = 0; j < 4; ++j) {
         seed[j] = found->start[j];
     }
-    scara_ik_branches(found->goal, found);
     for (int k = 0; (k < 8) && (found->count == 0); ++k) {
-        const double *v = twists[(k / 2) % 2];
-        const double by = ((k % 2) == 0) ? size : -size;
+        const double *v = twists[k % 2];
         const double *T = found->goal;
         double near_by[16];
         for (int column = 0; column < 4; ++column) {
             const double x = T[column];
             const double y = T[4 + column];
             const double z = T[8 + column];
-            near_by[column] = x + (by * ((v[1] * z) - (v[2] * y)));
-            near_by[4 + column] = y + (by * ((v[2] * x) - (v[0] * z)));
-            near_by[8 + column] = z + (by * ((v[0] * y) - (v[1] * x)));
+            near_by[column] = x + (size * ((v[1] * z) - (v[2] * y)));
+            near_by[4 + column] = y + (size * ((v[2] * x) - (v[0] * z)));
+            near_by[8 + column] = z + (size * ((v[0] * y) - (v[1] * x)));
         }
         for (int column = 12; column < 16; ++column) {
             near_by[column] = T[column];
         }
         for (int row = 0; row < 3; ++row) {
-            near_by[(4 * row) + 3] += by * found->reach * v[3 + row];
+            near_by[(4 * row) + 3] += size * found->reach * v[3 + row];
         }
         scara_ik_branches(near_by, found);
         if ((k % 2) == 1) {
@@ -869,9 +893,11 @@ static void scara_ik_rescue(scara_ik_search *found)
     for (int k = 1; (k <= ((found->freed != 0) ? 24 : 1)) && (found->count == 0); ++k) {
         for (int j = 0; j < 4; ++j) {
             /* Spread by the golden angle. */
-            const double spread = 2.399963229728653 * k * (j + 1);
+            const int times = k * (j + 1);
+            const double spread = 2.399963229728653 * (double)times;
             static const int turns[4] = {1, 1, 0, 1};
-            found->start[j] = seed[j] + ((turns[j] != 0) ? spread : (found->reach * sin(spread)));
+            const double shift = found->reach * sin(spread);
+            found->start[j] = seed[j] + ((turns[j] != 0) ? spread : shift);
         }
         scara_ik_branches(found->goal, found);
     }
@@ -883,32 +909,65 @@ static void scara_ik_rescue(scara_ik_search *found)
 /* Put the answers nearest to the seed first. */
 static void scara_ik_sort(scara_ik_search *found)
 {
-    double far[scara_IK_MAX];
+    double far_off[scara_IK_MAX];
     for (int one = 0; one < found->count; ++one) {
         double q[4];
         double distance = 0.0;
-        const unsigned mask = found->free_joints ? found->free_joints[one] : 0U;
+        unsigned mask = 0U;
         int place = one;
+        if (found->free_joints != NULL) {
+            mask = found->free_joints[one];
+        }
         for (int k = 0; k < 4; ++k) {
             const double apart = scara_ik_apart(found, k, found->q[one][k], found->start[k]);
             q[k] = found->q[one][k];
             distance += apart * apart;
         }
-        for (; (place > 0) && (far[place - 1] > distance); --place) {
-            far[place] = far[place - 1];
+        while ((place > 0) && (far_off[place - 1] > distance)) {
+            far_off[place] = far_off[place - 1];
             for (int k = 0; k < 4; ++k) {
                 found->q[place][k] = found->q[place - 1][k];
             }
-            if (found->free_joints) {
+            if (found->free_joints != NULL) {
                 found->free_joints[place] = found->free_joints[place - 1];
             }
+            --place;
         }
-        far[place] = distance;
+        far_off[place] = distance;
         for (int k = 0; k < 4; ++k) {
             found->q[place][k] = q[k];
         }
-        if (found->free_joints) {
+        if (found->free_joints != NULL) {
             found->free_joints[place] = mask;
+        }
+    }
+}
+
+/* Lower and upper limit of joint variable k; infinite where the table gives none. */
+static const double *scara_ik_limits(int k)
+{
+    static const double limits[4][2] = {
+        {-2.9670597283903604, 2.9670597283903604},
+        {-2.530727415391778, 2.530727415391778},
+        {-0.2, 0.0},
+        {-HUGE_VAL, HUGE_VAL},
+    };
+    return limits[k];
+}
+
+/* Move angles by a full turn into their limits, where that is possible. */
+static void scara_ik_in_limits(double q[4])
+{
+    for (int k = 0; k < 4; ++k) {
+        static const int turns[4] = {1, 1, 0, 1};
+        const double turn = (turns[k] != 0) ? (2.0 * scara_ik_PI) : 0.0;
+        const double *limits = scara_ik_limits(k);
+        if ((q[k] < limits[0]) && ((q[k] + turn) <= limits[1])) {
+            q[k] += turn;
+        } else if ((q[k] > limits[1]) && ((q[k] - turn) >= limits[0])) {
+            q[k] -= turn;
+        } else {
+            /* It is within, or no turn brings it there. */
         }
     }
 }
@@ -918,42 +977,30 @@ int scara_ik(const double T[16], const double *seed, double q[scara_IK_MAX][4],
 {
     double goal[16];
     scara_ik_search found;
-    if (scara_ik_goal(T, goal) == 0) {
-        return 0;
-    }
     found.goal = goal;
     for (int k = 0; k < 4; ++k) {
-        found.start[k] = seed ? seed[k] : 0.0;
+        found.start[k] = (seed != NULL) ? seed[k] : 0.0;
     }
     found.q = q;
     found.free_joints = free_joints;
     found.reach = 1.05;
     found.count = 0;
     found.steps = 6;
-    found.damped = 0;
     found.anywhere = 0;
     found.slack = 1e-9;
     found.doubtful = 0;
     found.freed = 0;
-    scara_ik_branches(goal, &found);
-    if ((found.count == 0) && (found.doubtful != 0)) {
-        scara_ik_rescue(&found);
+    if (scara_ik_goal(T, goal) != 0) {
+        scara_ik_branches(goal, &found);
+        if ((found.count == 0) && (found.doubtful != 0)) {
+            scara_ik_rescue(&found);
+        }
     }
-    if (seed) {
+    if (seed != NULL) {
         scara_ik_sort(&found);
     }
     for (int one = 0; one < found.count; ++one) {
-        for (int k = 0; k < 4; ++k) {
-            /* Only an angle is moved: a full turn makes no difference to it. */
-            static const int turns[4] = {1, 1, 0, 1};
-            const double turn = (turns[k] != 0) ? (2.0 * scara_ik_PI) : 0.0;
-            const double *limits = scara_ik_limits[k];
-            if ((q[one][k] < limits[0]) && ((q[one][k] + turn) <= limits[1])) {
-                q[one][k] += turn;
-            } else if ((q[one][k] > limits[1]) && ((q[one][k] - turn) >= limits[0])) {
-                q[one][k] -= turn;
-            }
-        }
+        scara_ik_in_limits(q[one]);
     }
     return found.count;
 }
@@ -962,8 +1009,8 @@ int scara_within_limits(const double q[4])
 {
     int within = 1;
     for (int k = 0; k < 4; ++k) {
-        const double *limits = scara_ik_limits[k];
-        if ((q[k] < (limits[0] - 1e-6)) || (q[k] > (limits[1] + 1e-6))) {
+        const double *limits = scara_ik_limits(k);
+        if (!((q[k] >= (limits[0] - 1e-6)) && (q[k] <= (limits[1] + 1e-6)))) {
             within = 0;
         }
     }

@@ -7,6 +7,7 @@
 #include "stanford.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #ifndef stanford_TABLE_b2b30329327d9015
 #error "stanford.h and stanford.c come from different tables: generate both again"
@@ -449,11 +450,10 @@ typedef struct stanford_ik_search {
     double reach;
     int count;
     int steps; /* of Newton's method at most */
-    int damped; /* whether a step that makes it worse is taken again, shorter */
-    int anywhere; /* whether any proposal is worth them, and what is badly conditioned is free */
+    int anywhere; /* whether any proposal is worth them, damped */
     double slack; /* how far beyond the reach a target counts as on its boundary */
     int doubtful; /* an equation was badly conditioned: an answer may be missing */
-    int freed; /* a joint is free, or nearly: another value may lead to an answer */
+    int freed; /* a joint was left free: another value may lead to an answer */
 } stanford_ik_search;
 
 /* An unknown: its values as cosines and sines, a slide's in c, and how well it is conditioned. */
@@ -468,18 +468,6 @@ typedef struct stanford_ik_unknown {
     int count;
     unsigned free_joints;
 } stanford_ik_unknown;
-
-static const stanford_ik_unknown stanford_ik_open = {
-    {0.0, 0.0},
-    {0.0, 0.0},
-    0.0,
-    0.0,
-    0.0,
-    0.0,
-    -1.0,
-    0,
-    0U,
-};
 
 /* Leave an angle free: it has the seed's value. */
 static void stanford_ik_leave(stanford_ik_unknown *x, double seed, unsigned place)
@@ -510,28 +498,31 @@ static void stanford_ik_turns(
 {
     const double h = sqrt((x->a * x->a) + (x->b * x->b));
     const double beyond = fabs(x->rest) - h;
-    if (!(x->score > ((found->anywhere != 0) ? 1e-5 : 1e-12))) {
+    if (!(x->score > 1e-12)) {
         found->doubtful = 1;
-        if (fabs(x->rest) <= (found->slack * x->whole)) {
+        if (fabs(x->rest) <= (1e-9 * x->whole)) {
             found->freed = 1;
             stanford_ik_leave(x, seed, place);
         }
-        return;
-    }
-    if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
-        found->doubtful = 1;
-        found->freed = (x->score < 1e-5) ? 1 : found->freed;
-    }
-    if (beyond <= (found->slack * h)) {
-        /* A goal on the boundary may be beyond it by rounding. */
-        const double c = (beyond > 0.0) ? ((x->rest > 0.0) ? h : -h) : x->rest;
-        const double root = sqrt((h - c) * (h + c));
-        const double scale = 1.0 / (h * h);
-        x->c[0] = -((x->b * c) + (x->a * root)) * scale;
-        x->s[0] = ((x->b * root) - (x->a * c)) * scale;
-        x->c[1] = ((x->a * root) - (x->b * c)) * scale;
-        x->s[1] = -((x->a * c) + (x->b * root)) * scale;
-        x->count = (root > 0.0) ? 2 : 1;
+    } else {
+        if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
+            found->doubtful = 1;
+        }
+        if (beyond <= (found->slack * h)) {
+            const double edge = (x->rest > 0.0) ? h : -h;
+            /* A goal on the boundary may be beyond it by rounding. */
+            const double c = (beyond > 0.0) ? edge : x->rest;
+            const double root = sqrt((h - c) * (h + c));
+            const double scale = 1.0 / (h * h);
+            x->c[0] = -((x->b * c) + (x->a * root)) * scale;
+            x->s[0] = ((x->b * root) - (x->a * c)) * scale;
+            x->c[1] = ((x->a * root) - (x->b * c)) * scale;
+            x->s[1] = -((x->a * c) + (x->b * root)) * scale;
+            x->count = 1;
+            if (root > 0.0) {
+                x->count = 2;
+            }
+        }
     }
 }
 
@@ -566,10 +557,10 @@ static void stanford_ik_turn(
 {
     if (x->score < 1e-5) {
         found->doubtful = 1;
-        found->freed = 1;
     }
     x->count = 1;
-    if (!(x->score > ((found->anywhere != 0) ? 1e-5 : 1e-24))) {
+    if (!(x->score > 1e-24)) {
+        found->freed = 1;
         stanford_ik_leave(x, seed, place);
     }
 }
@@ -589,10 +580,10 @@ static void stanford_ik_shift(
 {
     if (x->score < 1e-5) {
         found->doubtful = 1;
-        found->freed = 1;
     }
     x->count = 1;
-    if (!(x->score > ((found->anywhere != 0) ? 1e-5 : 1e-12))) {
+    if (!(x->score > 1e-12)) {
+        found->freed = 1;
         x->c[0] = seed;
         x->free_joints = 1U << place;
     }
@@ -698,29 +689,36 @@ static void stanford_ik_step(
     }
 }
 
-/* Improve joint values by Newton's method; the error that is left. */
+/* Improve joint values by Newton's method, damped where that makes them worse if `damped` says so;
+   the error that is left. */
 static double stanford_ik_improve(
-    const stanford_ik_search *found, double q[6], double error)
+    const stanford_ik_search *found, double q[6], double error, int damped)
 {
+    double best = error;
     double damping = 0.0;
-    for (int step = 0; (step < found->steps) && (error > (1e-13 * found->reach)); ++step) {
-        double next[6];
-        double left;
-        stanford_ik_step(found, q, damping, next);
-        left = stanford_ik_error(found, next);
-        if (left < error) {
-            error = left;
-            damping = (damping > 1e-7) ? (0.2 * damping) : 0.0;
-            for (int k = 0; k < 6; ++k) {
-                q[k] = next[k];
+    int going = 1;
+    for (int step = 0; (step < found->steps) && (going != 0); ++step) {
+        if (best > (1e-13 * found->reach)) {
+            double next[6];
+            double left;
+            stanford_ik_step(found, q, damping, next);
+            left = stanford_ik_error(found, next);
+            if (left < best) {
+                best = left;
+                damping *= (damping > 1e-7) ? 0.2 : 0.0;
+                for (int k = 0; k < 6; ++k) {
+                    q[k] = next[k];
+                }
+            } else if ((damped != 0) && (damping < 10.0)) {
+                damping = fmax(5.0 * damping, 1e-6);
+            } else {
+                going = 0;
             }
-        } else if ((found->damped != 0) && (damping < 10.0)) {
-            damping = (damping > 0.0) ? (5.0 * damping) : 1e-6;
         } else {
-            break;
+            going = 0;
         }
     }
-    return error;
+    return best;
 }
 
 /* An angle in (-pi, pi]. */
@@ -737,34 +735,10 @@ static double stanford_ik_apart(const stanford_ik_search *found, int k, double a
     return (turns[k] != 0) ? stanford_ik_wrapped(a - b) : ((a - b) / found->reach);
 }
 
-/* Take joint values up among the answers if they reach the goal and are new. */
-static void stanford_ik_propose(
-    stanford_ik_search *found, const double proposed[6], unsigned free_joints)
+/* Whether joint values are none of the answers so far. */
+static int stanford_ik_distinct(const stanford_ik_search *found, const double q[6])
 {
-    double q[6];
-    double error;
-    for (int k = 0; k < 6; ++k) {
-        if (!(fabs(proposed[k]) <= 1e100)) {
-            return;
-        }
-        q[k] = proposed[k];
-    }
-    error = stanford_ik_error(found, q);
-    if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
-        error = stanford_ik_improve(found, q, error);
-    }
-    if (!(error <= (1e-9 * found->reach))) {
-        /* So near a goal that is within reach that an answer may have been missed. */
-        found->doubtful = (error < (1e-3 * found->reach)) ? 1 : found->doubtful;
-        return;
-    }
-    if (found->count >= stanford_IK_MAX) {
-        return;
-    }
-    for (int k = 0; k < 6; ++k) {
-        static const int turns[6] = {1, 1, 0, 1, 1, 1};
-        q[k] = (turns[k] != 0) ? stanford_ik_wrapped(q[k]) : q[k];
-    }
+    int distinct = 1;
     for (int other = 0; other < found->count; ++other) {
         int differ = 0;
         for (int k = 0; k < 6; ++k) {
@@ -773,21 +747,67 @@ static void stanford_ik_propose(
             }
         }
         if (differ == 0) {
-            return;
+            distinct = 0;
         }
     }
+    return distinct;
+}
+
+/* Take joint values up among the answers if they reach the goal and are new. */
+static void stanford_ik_propose(
+    stanford_ik_search *found, const double proposed[6], unsigned free_joints)
+{
+    double q[6];
+    int usable = 1;
+    if (found->count >= stanford_IK_MAX) {
+        usable = 0;
+    }
     for (int k = 0; k < 6; ++k) {
-        found->q[found->count][k] = q[k];
+        q[k] = proposed[k];
+        if (!(fabs(q[k]) <= 1e100)) {
+            usable = 0;
+        }
     }
-    if (found->free_joints) {
-        found->free_joints[found->count] = free_joints;
+    if (usable != 0) {
+        double error = stanford_ik_error(found, q);
+        if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
+            error = stanford_ik_improve(found, q, error, found->anywhere);
+        }
+        if (!(error <= (1e-9 * found->reach))) {
+            usable = 0;
+        }
     }
-    ++found->count;
+    if (usable != 0) {
+        for (int k = 0; k < 6; ++k) {
+            static const int turns[6] = {1, 1, 0, 1, 1, 1};
+            q[k] = (turns[k] != 0) ? stanford_ik_wrapped(q[k]) : q[k];
+        }
+        if (stanford_ik_distinct(found, q) != 0) {
+            for (int k = 0; k < 6; ++k) {
+                found->q[found->count][k] = q[k];
+            }
+            if (found->free_joints != NULL) {
+                found->free_joints[found->count] = free_joints;
+            }
+            ++found->count;
+        }
+    }
 }
 
 /* Propose the joint values of every branch. */
 static void stanford_ik_branches(const double T[16], stanford_ik_search *found)
 {
+    static const stanford_ik_unknown blank = {
+        {0.0, 0.0},
+        {0.0, 0.0},
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        -1.0,
+        0,
+        0U,
+    };
     const double r11 = T[0];
     const double r12 = T[1];
     const double r13 = T[2];
@@ -805,7 +825,7 @@ static void stanford_ik_branches(const double T[16], stanford_ik_search *found)
     const double t3 = pz - 0.412 - (0.263 * r33);
 
     /* theta1: A s + B c + C = 0 */
-    stanford_ik_unknown x1 = stanford_ik_open;
+    stanford_ik_unknown x1 = blank;
     stanford_ik_line(&x1, -t1, t2, -0.154, 1.658, 1.812);
     stanford_ik_turns(&x1, found->start[0], 0U, found);
     for (int k1 = 0; k1 < x1.count; ++k1) {
@@ -816,12 +836,10 @@ static void stanford_ik_branches(const double T[16], stanford_ik_search *found)
         const double t5 = (c1 * r11) + (s1 * r21);
         const double t6 = (c1 * r12) + (s1 * r22);
         const double t7 = (c1 * r13) + (s1 * r23);
-        const double e21 = (c1 * r21) - (s1 * r11);
-        const double e22 = (c1 * r22) - (s1 * r12);
         const double e23 = (c1 * r23) - (s1 * r13);
 
         /* theta2: A s + B c + C = 0 */
-        stanford_ik_unknown x2 = stanford_ik_open;
+        stanford_ik_unknown x2 = blank;
         stanford_ik_line(&x2, t3, -t4, 0.0, 2.487, 2.487);
         stanford_ik_turns(&x2, found->start[1], 1U, found);
         for (int k2 = 0; k2 < x2.count; ++k2) {
@@ -829,18 +847,18 @@ static void stanford_ik_branches(const double T[16], stanford_ik_search *found)
             const double s2 = x2.s[k2];
 
             /* d3: A q + C = 0 */
-            stanford_ik_unknown x3 = stanford_ik_open;
+            stanford_ik_unknown x3 = blank;
             stanford_ik_slide(&x3, -1.0, (c2 * t3) + (s2 * t4), 1.0);
             stanford_ik_shift(&x3, found->start[2], 2U, found);
             const double x3_ = x3.c[0];
             const double angle2 = atan2(s2, c2);
-            const double e11 = (c2 * t5) - (s2 * r31);
-            const double e12 = (c2 * t6) - (s2 * r32);
             const double e13 = (c2 * t7) - (s2 * r33);
+            const double e31 = (c2 * r31) + (s2 * t5);
+            const double e32 = (c2 * r32) + (s2 * t6);
             const double e33 = (c2 * r33) + (s2 * t7);
 
             /* theta4: A s + B c + C = 0 */
-            stanford_ik_unknown x4 = stanford_ik_open;
+            stanford_ik_unknown x4 = blank;
             stanford_ik_line(&x4, e13, -e23, 0.0, 2.0, 2.0);
             if (x4.score < 1e-3) {
                 stanford_ik_line(&x4, -e13, e23, 0.0, 5.0, 5.0);
@@ -851,16 +869,25 @@ static void stanford_ik_branches(const double T[16], stanford_ik_search *found)
                 const double s4 = x4.s[k4];
 
                 /* theta5: two equations A s + B c + C = 0 */
-                stanford_ik_unknown x5 = stanford_ik_open;
+                stanford_ik_unknown x5 = blank;
                 stanford_ik_pair(&x5, 0.0, -1.0, e33, -1.0, 0.0, (c4 * e13) + (s4 * e23), 1.0);
                 stanford_ik_turn(&x5, found->start[4], 4U, found);
                 const double c5 = x5.c[0];
                 const double s5 = x5.s[0];
 
                 /* theta6: two equations A s + B c + C = 0 */
-                stanford_ik_unknown x6 = stanford_ik_open;
-                stanford_ik_pair(&x6, -1.0, 0.0, (c4 * e21) - (s4 * e11), 0.0, -1.0,
-                    (c4 * e22) - (s4 * e12), 1.0);
+                stanford_ik_unknown x6 = blank;
+                stanford_ik_pair(&x6, 0.0, s5, e31, -s5, 0.0, e32, 1.0);
+                if (x6.score < 1e-3) {
+                    const double t8 = c4 * c5;
+                    stanford_ik_pair(&x6, s4, -t8, (c2 * t5) - (s2 * r31), t8, s4,
+                        (c2 * t6) - (s2 * r32), 4.0);
+                }
+                if (x6.score < 1e-3) {
+                    const double t9 = s4 * c5;
+                    stanford_ik_pair(&x6, -c4, -t9, (c1 * r21) - (s1 * r11), t9, -c4,
+                        (c1 * r22) - (s1 * r12), 4.0);
+                }
                 stanford_ik_turn(&x6, found->start[5], 5U, found);
                 const double c6 = x6.c[0];
                 const double s6 = x6.s[0];
@@ -876,93 +903,105 @@ static void stanford_ik_branches(const double T[16], stanford_ik_search *found)
     }
 }
 
-/* Copy a pose; 0 where it holds what is no number, or its rotation is none. */
+/* Copy the rotation of a pose and make it exact; 0 where it is none, or no numbers. */
+static int stanford_ik_rotation(const double T[16], double goal[16])
+{
+    int good = 1;
+    int rough = 1;
+    for (int k = 0; k < 11; ++k) {
+        if ((k % 4) != 3) {
+            goal[k] = T[k];
+            if (!(fabs(goal[k]) <= 2.0)) {
+                good = 0;
+            }
+        }
+    }
+    /* R (3 - R^T R) / 2 comes nearer to the rotation that is nearest to R. */
+    for (int round = 0; (round < 3) && (good != 0) && (rough != 0); ++round) {
+        double square[3][3];
+        double off = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) {
+                const double along = (goal[i] * goal[j]) + (goal[4 + i] * goal[4 + j]);
+                const double unit = (i == j) ? 1.0 : 0.0;
+                square[i][j] = along + (goal[8 + i] * goal[8 + j]);
+                off = fmax(off, fabs(square[i][j] - unit));
+            }
+        }
+        if (off > 1e-4) {
+            good = 0;
+        } else if (off > 1e-15) {
+            for (int row = 0; row < 12; row += 4) {
+                const double x[3] = {goal[row], goal[row + 1], goal[row + 2]};
+                for (int j = 0; j < 3; ++j) {
+                    const double along = (x[0] * square[0][j]) + (x[1] * square[1][j]);
+                    const double both = along + (x[2] * square[2][j]);
+                    goal[row + j] = (1.5 * x[j]) - (0.5 * both);
+                }
+            }
+        } else {
+            rough = 0;
+        }
+    }
+    return good;
+}
+
+/* Copy what is compared of a pose; 0 where it holds what is no number, or its rotation is none. */
 static int stanford_ik_goal(const double T[16], double goal[16])
 {
-    double off = 1.0;
+    int good = 1;
     for (int k = 0; k < 16; ++k) {
         goal[k] = 0.0;
     }
     goal[3] = T[3];
     if (!(fabs(goal[3]) <= 1e100)) {
-        return 0;
+        good = 0;
     }
     goal[7] = T[7];
     if (!(fabs(goal[7]) <= 1e100)) {
-        return 0;
+        good = 0;
     }
     goal[11] = T[11];
     if (!(fabs(goal[11]) <= 1e100)) {
-        return 0;
+        good = 0;
     }
-    for (int k = 0; k < 11; ++k) {
-        if ((k % 4) != 3) {
-            goal[k] = T[k];
-            if (!(fabs(goal[k]) <= 2.0)) {
-                return 0;
-            }
-        }
+    if (stanford_ik_rotation(T, goal) == 0) {
+        good = 0;
     }
-    /* R (3 - R^T R) / 2 comes nearer to the rotation that is nearest to R. */
-    for (int round = 0; (round < 3) && (off > 1e-15); ++round) {
-        double square[3][3];
-        off = 0.0;
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) {
-                const double along = (goal[i] * goal[j]) + (goal[4 + i] * goal[4 + j]);
-                square[i][j] = along + (goal[8 + i] * goal[8 + j]);
-                off = fmax(off, fabs(square[i][j] - ((i == j) ? 1.0 : 0.0)));
-            }
-        }
-        if (off > 1e-4) {
-            return 0;
-        }
-        if (off > 1e-15) {
-            for (int row = 0; row < 12; row += 4) {
-                const double x[3] = {goal[row], goal[row + 1], goal[row + 2]};
-                for (int j = 0; j < 3; ++j) {
-                    const double along = (x[0] * square[0][j]) + (x[1] * square[1][j]);
-                    goal[row + j] = (1.5 * x[j]) - (0.5 * (along + (x[2] * square[2][j])));
-                }
-            }
-        }
-    }
-    return 1;
+    return good;
 }
 
-/* Where equations degenerate: take more of Newton's steps; solve for poses near the goal and come
-   back by them; then give free joints other values. */
+/* Where equations degenerate: solve for a pose near the goal and come back by Newton's method; then
+   give free joints other values. */
 static void stanford_ik_rescue(stanford_ik_search *found)
 {
-    /* Each direction and its opposite: beyond a boundary one of the two comes back within reach. */
     static const double twists[2][6] = {
-        {0.83, -0.41, 0.57, -0.62, 0.94, 0.36}, {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75}};
+        {0.83, -0.41, 0.57, -0.62, 0.94, 0.36},
+        {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75},
+    };
     double seed[6];
     double size = 1e-6;
     found->steps = 40;
-    found->damped = 1;
     for (int j = 0; j < 6; ++j) {
         seed[j] = found->start[j];
     }
-    stanford_ik_branches(found->goal, found);
     for (int k = 0; (k < 8) && (found->count == 0); ++k) {
-        const double *v = twists[(k / 2) % 2];
-        const double by = ((k % 2) == 0) ? size : -size;
+        const double *v = twists[k % 2];
         const double *T = found->goal;
         double near_by[16];
         for (int column = 0; column < 4; ++column) {
             const double x = T[column];
             const double y = T[4 + column];
             const double z = T[8 + column];
-            near_by[column] = x + (by * ((v[1] * z) - (v[2] * y)));
-            near_by[4 + column] = y + (by * ((v[2] * x) - (v[0] * z)));
-            near_by[8 + column] = z + (by * ((v[0] * y) - (v[1] * x)));
+            near_by[column] = x + (size * ((v[1] * z) - (v[2] * y)));
+            near_by[4 + column] = y + (size * ((v[2] * x) - (v[0] * z)));
+            near_by[8 + column] = z + (size * ((v[0] * y) - (v[1] * x)));
         }
         for (int column = 12; column < 16; ++column) {
             near_by[column] = T[column];
         }
         for (int row = 0; row < 3; ++row) {
-            near_by[(4 * row) + 3] += by * found->reach * v[3 + row];
+            near_by[(4 * row) + 3] += size * found->reach * v[3 + row];
         }
         stanford_ik_branches(near_by, found);
         if ((k % 2) == 1) {
@@ -975,9 +1014,11 @@ static void stanford_ik_rescue(stanford_ik_search *found)
     for (int k = 1; (k <= ((found->freed != 0) ? 24 : 1)) && (found->count == 0); ++k) {
         for (int j = 0; j < 6; ++j) {
             /* Spread by the golden angle. */
-            const double spread = 2.399963229728653 * k * (j + 1);
+            const int times = k * (j + 1);
+            const double spread = 2.399963229728653 * (double)times;
             static const int turns[6] = {1, 1, 0, 1, 1, 1};
-            found->start[j] = seed[j] + ((turns[j] != 0) ? spread : (found->reach * sin(spread)));
+            const double shift = found->reach * sin(spread);
+            found->start[j] = seed[j] + ((turns[j] != 0) ? spread : shift);
         }
         stanford_ik_branches(found->goal, found);
     }
@@ -989,31 +1030,35 @@ static void stanford_ik_rescue(stanford_ik_search *found)
 /* Put the answers nearest to the seed first. */
 static void stanford_ik_sort(stanford_ik_search *found)
 {
-    double far[stanford_IK_MAX];
+    double far_off[stanford_IK_MAX];
     for (int one = 0; one < found->count; ++one) {
         double q[6];
         double distance = 0.0;
-        const unsigned mask = found->free_joints ? found->free_joints[one] : 0U;
+        unsigned mask = 0U;
         int place = one;
+        if (found->free_joints != NULL) {
+            mask = found->free_joints[one];
+        }
         for (int k = 0; k < 6; ++k) {
             const double apart = stanford_ik_apart(found, k, found->q[one][k], found->start[k]);
             q[k] = found->q[one][k];
             distance += apart * apart;
         }
-        for (; (place > 0) && (far[place - 1] > distance); --place) {
-            far[place] = far[place - 1];
+        while ((place > 0) && (far_off[place - 1] > distance)) {
+            far_off[place] = far_off[place - 1];
             for (int k = 0; k < 6; ++k) {
                 found->q[place][k] = found->q[place - 1][k];
             }
-            if (found->free_joints) {
+            if (found->free_joints != NULL) {
                 found->free_joints[place] = found->free_joints[place - 1];
             }
+            --place;
         }
-        far[place] = distance;
+        far_off[place] = distance;
         for (int k = 0; k < 6; ++k) {
             found->q[place][k] = q[k];
         }
-        if (found->free_joints) {
+        if (found->free_joints != NULL) {
             found->free_joints[place] = mask;
         }
     }
@@ -1024,28 +1069,26 @@ int stanford_ik(const double T[16], const double *seed, double q[stanford_IK_MAX
 {
     double goal[16];
     stanford_ik_search found;
-    if (stanford_ik_goal(T, goal) == 0) {
-        return 0;
-    }
     found.goal = goal;
     for (int k = 0; k < 6; ++k) {
-        found.start[k] = seed ? seed[k] : 0.0;
+        found.start[k] = (seed != NULL) ? seed[k] : 0.0;
     }
     found.q = q;
     found.free_joints = free_joints;
     found.reach = 0.829;
     found.count = 0;
     found.steps = 6;
-    found.damped = 0;
     found.anywhere = 0;
     found.slack = 1e-9;
     found.doubtful = 0;
     found.freed = 0;
-    stanford_ik_branches(goal, &found);
-    if ((found.count == 0) && (found.doubtful != 0)) {
-        stanford_ik_rescue(&found);
+    if (stanford_ik_goal(T, goal) != 0) {
+        stanford_ik_branches(goal, &found);
+        if ((found.count == 0) && (found.doubtful != 0)) {
+            stanford_ik_rescue(&found);
+        }
     }
-    if (seed) {
+    if (seed != NULL) {
         stanford_ik_sort(&found);
     }
     return found.count;
