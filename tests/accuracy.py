@@ -88,18 +88,20 @@ def measure(table: Path, poses: int = POSES, sample: int = SAMPLE) -> Row:
     """Measure every kind of code of one table."""
     arm, robot = read_arm_file(table), symdh.load(table)
     reach = max(1.0, arm.reach())
-    # Floats are doubles too: one set of joint values for all.
-    q = arm.seeded_poses(poses, seed=TABLES.index(table)).astype(np.float32).astype(np.float64)
-    exact = in_extended_precision(arm, q)
+    q = {"double": arm.seeded_poses(poses, seed=TABLES.index(table))}
+    # Floats are doubles too: the oracle takes them as they are.
+    q["float"] = q["double"].astype(np.float32).astype(np.float64)
+    exact = {kind: in_extended_precision(arm, joints) for kind, joints in q.items()}
     some = slice(None, None, max(1, poses // sample))
-    off = apart(exact[some], pose_of(arm, q[some], FIFTY_DIGITS))
+    off = apart(exact["double"][some], pose_of(arm, q["double"][some], FIFTY_DIGITS))
     errors = {}
     with tempfile.TemporaryDirectory() as folder:
         for contestant in contestants(robot, Path(folder)):
-            found = contestant.poses(q)
-            error = np.abs(found - exact).max(axis=(1, 2))
+            joints = q[contestant.kind]
+            found = contestant.poses(joints)
+            error = np.abs(found - exact[contestant.kind]).max(axis=(1, 2))
             worst = int(np.argmax(np.where(np.isnan(error), np.inf, error)))
-            judged = apart(found[worst], pose_of(arm, q[worst : worst + 1], FIFTY_DIGITS)[0])
+            judged = apart(found[worst], pose_of(arm, joints[worst : worst + 1], FIFTY_DIGITS)[0])
             errors[contestant.name] = judged / EPS[contestant.kind] / reach
     return Row(table.stem, 4 + 2 * arm.n, off / EPS["double"] / reach, errors)
 

@@ -176,22 +176,30 @@ def rows_of(chain: dict[str, Any], module: Any, extension: Any) -> Rows:
 
 def race(contestants: dict[str, Call], rounds: int) -> dict[str, float]:
     """CPU nanoseconds of a call: the median of the best quarter of rounds, all taking turns."""
-    repeats, times = {}, {name: [] for name in contestants}
-    for name, call in contestants.items():
-        call()
-        start = time.thread_time()
-        call()
-        # A turn takes at least 0.2 ms, and one call.
-        repeats[name] = max(1, int(2e-4 / max(1e-7, time.thread_time() - start)))
+    repeats = {name: enough_calls(call) for name, call in contestants.items()}
+    times: dict[str, list[float]] = {name: [] for name in contestants}
     for _ in range(rounds):
         for name, call in contestants.items():
-            turns = range(repeats[name])
-            start = time.thread_time()
-            for _ in turns:
-                call()
-            times[name].append((time.thread_time() - start) / len(turns) * 1e9)
+            times[name].append(seconds(call, repeats[name]) / repeats[name] * 1e9)
     best = {name: sorted(each)[: max(1, len(each) // 4)] for name, each in times.items()}
     return {name: statistics.median(each) for name, each in best.items()}
+
+
+def enough_calls(call: Call) -> int:
+    """Return how many calls take at least half a millisecond once they are warm."""
+    count = 1
+    while seconds(call, count) < 5e-4:
+        count *= 2
+    return count
+
+
+def seconds(call: Call, count: int) -> float:
+    """CPU time of some calls."""
+    turns = range(count)
+    start = time.thread_time()
+    for _ in turns:
+        call()
+    return time.thread_time() - start
 
 
 def main() -> None:
