@@ -16,6 +16,7 @@ import pytest
 import sympy as sp
 from oracle import read_arm_file
 
+from symdh.cli.main import run
 from symdh.errors import TableError, UnsupportedError
 from symdh.kinematics.answers import JudgedClaim, JudgedSheet, judge
 from symdh.kinematics.answers.circle import UndecidedError, equal_in_ring
@@ -747,6 +748,34 @@ def test_exit_status_and_report(sheets: Path, run_symdh: Runner) -> None:
     assert bad.stdout == ""
     missing = run_symdh("answer", "arm.yaml", "nobody.yaml", cwd=sheets)
     assert missing.returncode == 3
+
+
+MIXED = """\
+A1: [[s1, -s1, 0, a1*c1], [s1, c1, 0, a1*s1], [0, 0, 1, 0], [0, 0, 0, 1]]
+rows: [[theta1, 0, a1, 0], [theta2, a2, 0, 0], [0, 0, 0, 0]]
+numbers: {px: 0.7}
+"""
+
+
+def test_a_report_marks_each_entry(sheets: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """px = 0.5 cos 30 + 0.4 cos 75 = 0.5365; the third row is one too many."""
+    (sheets / "mixed.yaml").write_text(MIXED)
+    command = ["answer", str(sheets / "arm.yaml"), str(sheets / "mixed.yaml"), "--solution"]
+    assert run(command) == 1
+    lines = [line.strip() for line in capsys.readouterr().out.splitlines()]
+    first = lines.index("✗ A1             15 of 16 right")
+    assert lines[first + 1 : first + 5] == ["⇄ ✓ ✓ ✓", *["✓ ✓ ✓ ✓"] * 3]
+    assert "✗ 0.7: wrong; right is 0.5365" in lines
+    rows = lines.index("✗ rows           6 of 12 right")
+    assert lines[rows + 1 : rows + 4] == ["✓ ✓ ✓ ✓", "✓ ✗ ✗ ✓", "✗ ✗ ✗ ✗"]
+    assert "✗ a of row 3 = 0: wrong (the table has no such row)" in lines
+    assert any(line.startswith("hint: the table has 2 rows, and here are 3;") for line in lines)
+    assert run([*command, "--format", "json"]) == 1
+    (sheet,) = json.loads(capsys.readouterr().out)["sheets"]
+    expected = [each["expected"] for claim in sheet["answers"] for each in claim["entries"]]
+    assert expected[:2] == ["c1", "-s1"]
+    assert "0.5365" in expected
+    assert expected[-4:] == [None] * 4
 
 
 def test_many_sheets_give_a_line_each(sheets: Path, run_symdh: Runner) -> None:
