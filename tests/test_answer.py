@@ -16,9 +16,11 @@ import pytest
 import sympy as sp
 from oracle import read_arm_file
 
+from symdh.cli.main import run
 from symdh.errors import TableError, UnsupportedError
 from symdh.kinematics.answers import JudgedClaim, JudgedSheet, judge
 from symdh.kinematics.answers.circle import UndecidedError, equal_in_ring
+from symdh.kinematics.answers.equality import Sameness, compare
 from symdh.kinematics.answers.figures import Written
 from symdh.notation.short_names import ShortNames
 from symdh.robot import Robot
@@ -479,6 +481,114 @@ def test_a_root_of_a_square_is_right_for_positive_lengths_only() -> None:
     assert "positive" in each.finding.note
 
 
+@pytest.mark.parametrize(
+    ("table", "answers", "verdict", "told"),
+    [
+        ("planar_2r", "nx: c12", "RIGHT", ""),
+        ("planar_2r", "T(base, tool)[1,1]: c12", "RIGHT", ""),
+        # Neither right but for rounding nor near it.
+        ("planar_2r", "px: 0.7*c1*c2", "WRONG", ""),
+        # As often wrong as right: for half of the turns of joint 1.
+        ("planar_2r", "A1[2,1]: abs(s1)", "WRONG", ""),
+        ("planar_2r", "A1[2,1]: sqrt(1 - c1**2)", "WRONG", ""),
+        ("planar_2r", "A1[1,1]: c1*(cos(65*theta1)**2 + sin(65*theta1)**2)", "RIGHT", "50 digits"),
+        ("planar_2r", "numbers: {'A1[1,1]': 0.866}", "RIGHT", ""),
+        ("planar_2r", "numbers: {px: sqrt(a1 - 1)}", "WRONG", "it has no real value"),
+        ("planar_2r", "J[1,1]: 5*a1", "WRONG", ""),
+        ("planar_2r", "T20[1,4]: 5*a1", "WRONG", ""),
+        ("offsets", "pose[1,4]: 5*b", "WRONG", ""),
+    ],
+)
+def test_a_single_answer(table: str, answers: str, verdict: str, told: str) -> None:
+    (claim,) = judged(table, answers).claims
+    (each,) = claim.entries
+    assert each.verdict.name == verdict
+    assert told in each.finding.note
+    assert not claim.hint
+
+
+@pytest.mark.parametrize(
+    ("table", "rows", "cell", "verdict", "told"),
+    [
+        ("planar_2r", "[theta1, 0, a1, 0], [theta2, 0, a2, 0]", "theta of row 1", "RIGHT", ""),
+        ("planar_2r", "[theta1, '', a1, 0], [theta2, 0, a2, 0]", "d of row 1", "BLANK", ""),
+        ("planar_2r", "[theta1, 0, 7*a1, 0], [theta2, 0, a2, 0]", "a of row 1", "WRONG", ""),
+        (
+            "planar_2r",
+            "[theta1, 0, a1, 0], [theta2, 0, a2, 0], [0, 0, a2, 0]",
+            "a of row 3",
+            "WRONG",
+            "no such row",
+        ),
+        (
+            "offsets",
+            "[q1, d1, 0, 90 rad], [90 deg - q2, 0, a2, 0], [0, q3 + 0.25, 0, 90 deg]",
+            "alpha of row 1",
+            "WRONG",
+            "degrees given where radians are meant",
+        ),
+        (
+            "offsets",
+            "[q1, d1, 0, 90 deg*pi/180], [90 deg - q2, 0, a2, 0], [0, q3 + 0.25, 0, 90 deg]",
+            "alpha of row 1",
+            "WRONG",
+            "radians given where degrees are meant",
+        ),
+    ],
+)
+def test_rows_as_lists(table: str, rows: str, cell: str, verdict: str, told: str) -> None:
+    (claim,) = judged(table, f"rows: [{rows}]").claims
+    found = {each.label: each for each in claim.entries}
+    assert found[cell].verdict.name == verdict
+    assert told in found[cell].finding.note
+    others = {each.verdict.name for label, each in found.items() if label != cell}
+    assert others == {"RIGHT"} or "row 3" in cell
+
+
+def test_equal_in_double_precision_is_not_equal() -> None:
+    points = [{X: 0.3}, {X: 0.7}]
+    assert compare(X, X * (1 + sp.Rational(1, 10**14)), points) is Sameness.DIFFERENT
+    assert compare(sp.sin(2 * X), 2 * sp.sin(X) * sp.cos(X), points) is Sameness.PROVEN
+
+
+def test_base_and_tool_forgotten_together() -> None:
+    (claim,) = judged("offsets", block("pose", chain(OFFSETS))).claims
+    assert "base and tool are forgotten" in claim.hint
+
+
+def test_a_name_that_reads_two_ways_is_refused() -> None:
+    rows = "\n".join(f"  - {{theta: q{k}, d: 0, a: a{k}, alpha: 0}}" for k in range(1, 14))
+    robot = loads_table(f"name: ruler\nconvention: standard\njoints:\n{rows}\n").robot
+    with pytest.raises(TableError, match=r"T111 reads two ways: write T\(1, 11\) or T\(11, 1\)"):
+        judge_text(robot, "T111[1,1]: 1")
+    # So many rows are not searched for the one that was read wrongly.
+    (claim,) = judge_text(robot, "T(0, 13)[1,4]: 5*a1").claims
+    assert (claim.entries[0].verdict.name, claim.hint) == ("WRONG", "")
+
+
+@pytest.mark.parametrize(
+    "hard",
+    [
+        X**65,
+        sp.cos(65 * X),
+        1 / (sp.cos(X) ** 2 + sp.sin(X) ** 2 - 1),
+    ],
+)
+def test_the_ring_says_what_it_does_not_decide(hard: sp.Expr) -> None:
+    with pytest.raises(UndecidedError):
+        equal_in_ring(hard, X)
+
+
+def test_an_arm_without_a_closed_form_has_entries_that_are_sure() -> None:
+    rows = "\n".join(f"  - {{theta: q{k}, d: d{k}, a: a{k}, alpha: 90 deg}}" for k in range(1, 11))
+    robot = loads_table(f"name: ten\nconvention: standard\njoints:\n{rows}\n").robot
+    (claim,) = judge_text(robot, "T(0, 10)[4,4]: 1").claims
+    assert claim.entries[0].verdict.name == "RIGHT"
+    assert "decided by number" in claim.entries[0].finding.note
+    with pytest.raises(UnsupportedError, match=r"a\.yaml:1:9: the Jacobian of ten has no closed"):
+        judge_text(robot, "J[1,1]: 0")
+
+
 def test_an_arm_without_a_closed_form_is_judged_by_number() -> None:
     rows = "\n".join(f"  - {{theta: q{k}, d: d{k}, a: a{k}, alpha: 90 deg}}" for k in range(1, 11))
     robot = loads_table(f"name: ten\nconvention: standard\njoints:\n{rows}\n").robot
@@ -528,6 +638,24 @@ MISTAKES = {
     "rows: [{theta: 1, d: 0, a: 0}]": (1, 8, "missing key alpha"),
     "columns: [a]": (1, 10, "columns without rows"),
     "name: Anna": (1, 1, "no answer here"),
+    "T02.q: 1": (1, 1, ".q is no part of a pose: write .p, .R, .px or .r11"),
+    "T02[x]: 1": (1, 1, "[x] is no entry: write [row,column], from 1"),
+    "A1: [[1, 0, 0, 0], [0, 1, 0], [0, 0, 1, 0], [0, 0, 0, 1]]": (1, 5, "here row 2 has 3"),
+    "rows: [{theta: theta1 +, d: 0, a: a1, alpha: 0}]": (1, 24, "ends early"),
+    "\n".join(
+        f"T({i}, {j})[{r},{c}]: 1"
+        for i in range(3)
+        for j in range(3)
+        for r in range(1, 5)
+        for c in range(1, 5)
+    )
+    + "\n"
+    + "\n".join(f"A{i}[{r},{c}]: 1" for i in (1, 2) for r in range(1, 5) for c in range(1, 5))
+    + "\n"
+    + "\n".join(f"r{r}{c}: 1" for r in "123" for c in "123")
+    + "\n"
+    + "\n".join(f"J[{r},{c}]: 1" for r in range(1, 7) for c in (1, 2))
+    + "\npx: 1\npy: 1\npz: 1\nnx: 1\n": (1, 1, "201 answers, over 200"),
 }
 
 
@@ -620,6 +748,34 @@ def test_exit_status_and_report(sheets: Path, run_symdh: Runner) -> None:
     assert bad.stdout == ""
     missing = run_symdh("answer", "arm.yaml", "nobody.yaml", cwd=sheets)
     assert missing.returncode == 3
+
+
+MIXED = """\
+A1: [[s1, -s1, 0, a1*c1], [s1, c1, 0, a1*s1], [0, 0, 1, 0], [0, 0, 0, 1]]
+rows: [[theta1, 0, a1, 0], [theta2, a2, 0, 0], [0, 0, 0, 0]]
+numbers: {px: 0.7}
+"""
+
+
+def test_a_report_marks_each_entry(sheets: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """px = 0.5 cos 30 + 0.4 cos 75 = 0.5365; the third row is one too many."""
+    (sheets / "mixed.yaml").write_text(MIXED)
+    command = ["answer", str(sheets / "arm.yaml"), str(sheets / "mixed.yaml"), "--solution"]
+    assert run(command) == 1
+    lines = [line.strip() for line in capsys.readouterr().out.splitlines()]
+    first = lines.index("✗ A1             15 of 16 right")
+    assert lines[first + 1 : first + 5] == ["⇄ ✓ ✓ ✓", *["✓ ✓ ✓ ✓"] * 3]
+    assert "✗ 0.7: wrong; right is 0.5365" in lines
+    rows = lines.index("✗ rows           6 of 12 right")
+    assert lines[rows + 1 : rows + 4] == ["✓ ✓ ✓ ✓", "✓ ✗ ✗ ✓", "✗ ✗ ✗ ✗"]
+    assert "✗ a of row 3 = 0: wrong (the table has no such row)" in lines
+    assert any(line.startswith("hint: the table has 2 rows, and here are 3;") for line in lines)
+    assert run([*command, "--format", "json"]) == 1
+    (sheet,) = json.loads(capsys.readouterr().out)["sheets"]
+    expected = [each["expected"] for claim in sheet["answers"] for each in claim["entries"]]
+    assert expected[:2] == ["c1", "-s1"]
+    assert "0.5365" in expected
+    assert expected[-4:] == [None] * 4
 
 
 def test_many_sheets_give_a_line_each(sheets: Path, run_symdh: Runner) -> None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import errno
+import io
 import json
+import math
 import os
 import pty
 import re
@@ -11,15 +13,18 @@ import select
 import signal
 import subprocess
 import sys
+import threading
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from symdh.cli import console
+from symdh.cli import console, files, patience
 from symdh.cli.main import run
+from symdh.cli.output import WrittenFile
 from symdh.cli.program import COMMANDS, program
-from symdh.codegen import TARGETS
+from symdh.codegen import TARGETS, verification
 from symdh.errors import Diagnostic, Severity
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
@@ -112,6 +117,13 @@ def test_version(capsys: Capture) -> None:
         (["code", "arm.yaml", "--target", "fortran"], "python"),
         (["code", "arm.yaml"], "--target"),
         (["check"], "TABLE"),
+        (["xyzzy"], "there is no command 'xyzzy'. The commands are init, check, derive"),
+        (["derive", "arm.yaml", "-j", "many"], "'many' is not a number from 0 to 999"),
+        (["derive", "arm.yaml", "other.yaml", "-o", "-"], "-o - takes one table."),
+        (["answer", "arm.yaml", "a.yaml", "-o", "x"], "-o goes with --blank"),
+        (["answer", "arm.yaml", "a.yaml", "--blank"], "--blank takes a table alone."),
+        (["code", "arm.yaml", "--target", "python", "--trig", "libm"], "--trig is for --target c"),
+        (["code", "arm.yaml", "--target", "c", "--lock", "q9"], "q9 is no joint variable of "),
     ],
 )
 def test_wrong_usage_is_told_and_costs_status_2(
@@ -149,6 +161,95 @@ def test_the_shell_s_questions_are_answered(
     monkeypatch.setenv("COMP_CWORD", str(index))
     assert run([]) == 0
     assert capsys.readouterr().out.split() == [f"plain,{name}" for name in completions]
+
+
+def test_a_shell_that_nobody_knows_gets_no_answer(
+    monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.setenv("_SYMDH_COMPLETE", "tcsh_complete")
+    assert run([]) == 1
+    assert capsys.readouterr() == ("", "")
+
+
+# -- streams --------------------------------------------------------------------------------------
+
+
+class Terminal(io.StringIO):
+    """What looks like a terminal."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+def test_a_diagnostic_without_a_line_is_coloured_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    console.show_diagnostics([Diagnostic("odd", "f.yaml", 1, 1)])
+    assert sys.stderr.getvalue() == "\x1b[1mf.yaml:1:1:\x1b[0m\x1b[31m odd\x1b[0m\n"
+
+
+def test_messages_to_nobody_are_no_failure(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Gone(io.StringIO):
+        def write(self, text: str) -> int:
+            raise BrokenPipeError
+
+    monkeypatch.setattr(sys, "stderr", Gone())
+    console.note("who is there?")
+    assert sys.stderr is None
+    console.note("nobody")
+
+
+def test_output_that_cannot_be_flushed_is_thrown_away(monkeypatch: pytest.MonkeyPatch) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    with os.fdopen(writer, "w") as stream:
+        stream.write("a result")
+        monkeypatch.setattr(sys, "stdout", stream)
+        console.settle_stdout()
+        stream.flush()  # to nowhere now
+        monkeypatch.undo()
+
+
+def test_a_person_is_told_what_takes_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    with patience.telling("composing"):
+        pass
+    monkeypatch.setattr(patience, "PATIENCE", 0.0)
+    told = threading.Event()
+    say = console.note
+
+    def note(text: str) -> None:
+        say(text)
+        told.set()
+
+    monkeypatch.setattr(console, "note", note)
+    with patience.telling("deriving"):
+        assert told.wait(30)
+    assert sys.stderr.getvalue() == "deriving ...\n"
+
+
+def test_sizes_for_people() -> None:
+    sizes = (999, 1000, 2_540_000)
+    told = files.listing([WrittenFile(Path("a"), size, True) for size in sizes])
+    assert [line.split(maxsplit=2)[2] for line in told.splitlines()] == [
+        "999 B",
+        "1.0 kB",
+        "2.5 MB",
+    ]
+
+
+def test_code_that_is_wrong_costs_status_1(
+    arm: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = verification.verify
+
+    def verify(*arguments: object, **named: object) -> object:
+        return replace(real(*arguments, **named), error=math.inf)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(verification, "verify", verify)
+    assert run(["code", str(arm), "--target", "python", "--verify"]) == 1
+    assert capsys.readouterr().out.endswith("WRONG\n")
 
 
 # -- derive ----------------------------------------------------------------------------------------

@@ -753,6 +753,13 @@ def test_every_format_by_the_command(folder: Path, capsys: Capture) -> None:
         assert shown.err == "".join(f"note: {note}\n" for note in exported.notes)
 
 
+def test_markdown_may_begin_with_a_tag_as_urdf_does(folder: Path, capsys: Capture) -> None:
+    rows = "| theta_i | d_i | a_i | alpha_i |\n|---|---|---|---|\n| q1 | 0 | 2 | 0 |\n"
+    Path("notes.md").write_text(f"<!-- convention: standard -->\n\n{rows}")
+    assert run(["convert", "notes.md", "--to", "csv"]) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == "q1,0,2,0"
+
+
 def test_a_file_is_written_and_kept(folder: Path, capsys: Capture) -> None:
     command = ["convert", "arm.yaml", "--to", "modified", "-o", "craig.yaml"]
     assert run(command) == 0

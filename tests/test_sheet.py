@@ -132,6 +132,36 @@ def test_exercises_follow_from_the_table() -> None:
     assert "Numbers" not in bare
 
 
+@pytest.mark.parametrize(
+    ("rows", "exercises"),
+    [
+        # One row is its own pose, and one joint has no singularity worth a question.
+        ("  - [q1, 0, a1, 0]\n", ["Velocity"]),
+        ("  - [q1, 0, a1, 0]\nvalues: {a1: 2}\n", ["Numbers", "Velocity"]),
+        # d1 is open, so no number can be asked for.
+        ("  - [q1, d1, 0, 0]\nvalues: {q1: 30 deg}\n", ["Velocity"]),
+        ("  - [0, 1, a1, 0]\n", []),
+        ("  - [q1, 0, a1, 0]\n  - [p2, 0, a2, 0]\n", ["The pose", "Velocity", "Singularities"]),
+        # Too long to be done by hand: six skew links, ten at right angles.
+        ("".join(f"  - [q{k}, d{k}, a{k}, alpha{k}]\n" for k in range(1, 7)), []),
+        ("".join(f"  - [q{k}, 1, 1, 90 deg]\n" for k in range(1, 11)), []),
+    ],
+)
+def test_only_what_can_be_done_by_hand_is_asked(rows: str, exercises: list[str]) -> None:
+    head = "name: arm\nconvention: standard\ncolumns: [theta, d, a, alpha]\nrows:\n"
+    made = sheet(loads_table(head + rows).robot, "problem")
+    assert [chapter.title for chapter in made.chapters] == ["One link", "The links", *exercises]
+
+
+def test_no_short_forms_where_joints_have_several_letters() -> None:
+    head = "name: arm\nconvention: standard\ncolumns: [theta, d, a, alpha]\nrows:\n"
+    for second, told in (("q2", True), ("p2", False)):
+        rows = f"  - [q1, 0, a1, 0]\n  - [{second}, 0, a2, 0]\n"
+        preface = sheet(loads_table(head + rows).robot, "problem").preface
+        texts = [str(block.content[0]) for block in preface if isinstance(block, Paragraph)]
+        assert any(text.startswith("Short forms") for text in texts) is told
+
+
 def test_the_table_can_be_asked_for() -> None:
     robot = example("scara")
     problem = sheet(robot, "problem", ask_table=True)

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import re
+import resource
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -334,6 +338,61 @@ def test_limits_are_lifted_afterwards(own: Path, robot: symdh.Robot) -> None:
     put(own, HEADER, "{{ 'x' * 10**11 }}")
     refusal(own, robot)
     assert resource.getrlimit(resource.RLIMIT_AS) == before
+
+
+def test_no_limit_of_memory_is_raised_or_guessed(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """A lower limit of the user's own stays, and a system that tells no size gets none."""
+    changed: list[object] = []
+    monkeypatch.setattr(resource, "setrlimit", lambda *arguments: changed.append(arguments))
+    with monkeypatch.context() as lower:
+        lower.setattr(resource, "getrlimit", lambda which: (1 << 20, 1 << 30))
+        with limits.limited():
+            pass
+    with monkeypatch.context() as elsewhere:
+        elsewhere.setattr(limits, "Path", lambda name: tmp_path / "no" / name.strip("/"))
+        with limits.limited():
+            pass
+    assert changed == []
+
+
+def test_templates_are_filled_in_threads_too(own: Path, robot: symdh.Robot) -> None:
+    """The clock of a process is its main thread's alone; the result is the same."""
+    put(own, HEADER, "/* {{ 6 * 7 }} */")
+    found: list[str] = []
+    thread = threading.Thread(target=lambda: found.append(header_with(own, robot)))
+    thread.start()
+    thread.join()
+    assert found == [header_with(own, robot)]
+    assert "42" in found[0]
+
+
+def test_an_expression_that_is_nested_too_deeply(own: Path, robot: symdh.Robot) -> None:
+    path = put(own, HEADER, "{{ " + "(" * 20_000 + "1" + ")" * 20_000 + " }}")
+    assert refusal(own, robot).startswith(f"{path}:1:1: an expression is nested too deeply")
+
+
+def test_a_name_made_at_run_time_may_mean_any_file(own: Path, robot: symdh.Robot) -> None:
+    put(own, HEADER, '{% set part = "c/" ~ "note.txt.jinja" %}{% include part %}')
+    put(own, "c/note.txt.jinja", "a note")
+    with own_templates(str(own)) as loaded:
+        assert generate(robot, "c")[0].text.strip() == "a note"
+    assert not loaded.warnings
+
+
+def test_hidden_files_are_left_alone(own: Path, robot: symdh.Robot) -> None:
+    put(own, ".header.h.jinja", "{% broken")
+    assert header_with(own, robot) == generate(robot, "c")[0].text
+
+
+def test_a_folder_that_cannot_be_listed(own: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def scandir(path: object) -> None:
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+
+    monkeypatch.setattr(os, "scandir", scandir)
+    with pytest.raises(ReadError, match=r"own: permission denied$"), own_templates(str(own)):
+        pass
 
 
 def test_a_folder_of_everything_is_refused(own: Path) -> None:

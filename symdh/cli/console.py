@@ -114,11 +114,6 @@ def width() -> int:
     return shutil.get_terminal_size((_WIDTH_OFF_TERMINAL, 24)).columns
 
 
-def wants_colour_on_stdout() -> bool:
-    """Say whether a result may be coloured."""
-    return _wants_colour(sys.stdout)
-
-
 def _wants_colour(stream: TextIO | None) -> bool:
     """Colour is for a terminal, and for nobody who has asked for none (https://no-color.org)."""
     if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb":

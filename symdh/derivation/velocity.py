@@ -251,8 +251,9 @@ def _component(name: Node, axis: str) -> Node:
             return Sum(tuple(_component(term, axis) for term in terms))
         case Negative(node=inner):
             return Negative(_component(inner, axis))
-    assert isinstance(name, Generic)
-    return Generic(name.letter, f"{name.index},{axis}" if name.index else axis)
+        case _:
+            assert isinstance(name, Generic)
+            return Generic(name.letter, f"{name.index},{axis}" if name.index else axis)
 
 
 def _statics(found: GeometricJacobian, written: Matrix | None) -> list[Block]:

@@ -22,7 +22,7 @@ from symdh.kinematics.answers.verdicts import (
     JudgedSheet,
     Verdict,
 )
-from symdh.robot import Robot
+from symdh.robot import JointType, Robot
 from symdh.table.answers import AnswerSheet, Claim, Entry, Jacobian
 
 _POINTS = 4
@@ -66,13 +66,19 @@ class _Judge:
     @cached_property
     def points(self) -> list[dict[Symbol, float]]:
         """Numbers for all symbols."""
-        return random_points(self._symbols, {}, _POINTS)
+        return random_points(self._symbols, {}, _POINTS, self._angles)
 
     @cached_property
     def _points_with_values(self) -> list[dict[Symbol, float]]:
         """Numbers for all symbols, parameters at the table's values."""
         known = {s: self._values[s] for s in self._robot.parameters if s in self._robot.values}
-        return random_points(self._symbols, known, _POINTS) if known else []
+        return random_points(self._symbols, known, _POINTS, self._angles) if known else []
+
+    @property
+    def _angles(self) -> set[Symbol]:
+        """The joint angles: what is right for half of their turns alone is wrong."""
+        joints = self._robot.joints
+        return {j.variable for j in joints if j.variable and j.type is JointType.REVOLUTE}
 
     @property
     def _symbols(self) -> tuple[Symbol, ...]:

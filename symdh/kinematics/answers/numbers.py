@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
 from sympy import (
     Abs,
@@ -121,8 +121,10 @@ def inverse(pose: Matrix) -> Matrix:
     return (*rows, pose[3])
 
 
-def random_points(symbols: Iterable[Symbol], known: Point, count: int) -> list[dict[Symbol, float]]:
-    """Return points that obey no relation by accident; the first half of them is positive.
+def random_points(
+    symbols: Iterable[Symbol], known: Point, count: int, angles: Collection[Symbol] = ()
+) -> list[dict[Symbol, float]]:
+    """Return points that obey no relation by accident; lengths of the first half are positive.
 
     Parameters
     ----------
@@ -131,12 +133,18 @@ def random_points(symbols: Iterable[Symbol], known: Point, count: int) -> list[d
     known : mapping of Symbol to float
         Symbols whose number is given.
     count : int
+    angles : collection of Symbol
+        Those that are positive as often as negative in either half.
     """
     letters = list(symbols)
     points = []
     for shift in range(count):
         signs = _signs(shift, count)
-        values = {letter: signs[k % 2] * _fraction(k, shift) for k, letter in enumerate(letters)}
+        turns = (-1) ** shift
+        values = {
+            letter: (turns if letter in angles else signs[k % 2]) * _fraction(k, shift)
+            for k, letter in enumerate(letters)
+        }
         points.append({**values, **known})
     return points
 

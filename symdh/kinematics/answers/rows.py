@@ -59,9 +59,7 @@ def _missing(robot: Robot, number: int, rows: Sequence[RowClaim]) -> list[Judged
 def _judged(robot: Robot, row: RowClaim, points: Sequence[Point]) -> list[JudgedEntry]:
     judged = []
     for name in PARAMETERS:
-        entry = row.cells.get(name)
-        if entry is None:
-            continue
+        entry = row.cells[name]
         label = f"{name} of row {row.number}"
         if row.number > robot.n:
             judged.append(JudgedEntry(label, entry, _NO_ROW))
