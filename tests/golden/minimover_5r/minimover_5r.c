@@ -413,10 +413,11 @@ typedef struct minimover_5r_ik_search {
     double reach;
     int count;
     int steps; /* of Newton's method at most */
-    int anywhere; /* whether any proposal is worth them, damped */
+    int damped; /* whether a step that makes it worse is taken again, shorter */
+    int anywhere; /* whether any proposal is worth them, and what is badly conditioned is free */
     double slack; /* how far beyond the reach a target counts as on its boundary */
     int doubtful; /* an equation was badly conditioned: an answer may be missing */
-    int freed; /* a joint was left free: another value may lead to an answer */
+    int freed; /* a joint is free, or nearly: another value may lead to an answer */
 } minimover_5r_ik_search;
 
 /* An unknown: its values as cosines and sines, a slide's in c, and how well it is conditioned. */
@@ -461,14 +462,19 @@ static void minimover_5r_ik_turns(
 {
     const double h = sqrt((x->a * x->a) + (x->b * x->b));
     const double beyond = fabs(x->rest) - h;
-    if (!(x->score > 1e-12)) {
+    const double least = (found->anywhere != 0) ? 1e-5 : 1e-12;
+    if (!(x->score > least)) {
         found->doubtful = 1;
-        if (fabs(x->rest) <= (1e-9 * x->whole)) {
+        if (fabs(x->rest) <= (found->slack * x->whole)) {
             found->freed = 1;
             minimover_5r_ik_leave(x, seed, place);
         }
     } else {
-        if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
+        if (x->score < 1e-5) {
+            found->doubtful = 1;
+            found->freed = 1;
+        }
+        if (fabs(beyond) < (1e-5 * h)) {
             found->doubtful = 1;
         }
         if (beyond <= (found->slack * h)) {
@@ -518,12 +524,13 @@ static void minimover_5r_ik_pair(
 static void minimover_5r_ik_turn(
     minimover_5r_ik_unknown *x, double seed, unsigned place, minimover_5r_ik_search *found)
 {
+    const double least = (found->anywhere != 0) ? 1e-5 : 1e-24;
     if (x->score < 1e-5) {
         found->doubtful = 1;
+        found->freed = 1;
     }
     x->count = 1;
-    if (!(x->score > 1e-24)) {
-        found->freed = 1;
+    if (!(x->score > least)) {
         minimover_5r_ik_leave(x, seed, place);
     }
 }
@@ -628,10 +635,9 @@ static void minimover_5r_ik_step(
     }
 }
 
-/* Improve joint values by Newton's method, damped where that makes them worse if `damped` says so;
-   the error that is left. */
+/* Improve joint values by Newton's method; the error that is left. */
 static double minimover_5r_ik_improve(
-    const minimover_5r_ik_search *found, double q[5], double error, int damped)
+    const minimover_5r_ik_search *found, double q[5], double error)
 {
     double best = error;
     double damping = 0.0;
@@ -648,7 +654,7 @@ static double minimover_5r_ik_improve(
                 for (int k = 0; k < 5; ++k) {
                     q[k] = next[k];
                 }
-            } else if ((damped != 0) && (damping < 10.0)) {
+            } else if ((found->damped != 0) && (damping < 10.0)) {
                 damping = fmax(5.0 * damping, 1e-6);
             } else {
                 going = 0;
@@ -711,10 +717,14 @@ static void minimover_5r_ik_propose(
     if (usable != 0) {
         double error = minimover_5r_ik_error(found, q);
         if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
-            error = minimover_5r_ik_improve(found, q, error, found->anywhere);
+            error = minimover_5r_ik_improve(found, q, error);
         }
         if (!(error <= (1e-9 * found->reach))) {
             usable = 0;
+            /* So near a goal that is within reach that an answer may have been missed. */
+            if (error < (1e-3 * found->reach)) {
+                found->doubtful = 1;
+            }
         }
     }
     if (usable != 0) {
@@ -755,8 +765,7 @@ static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search 
     const double r22 = T[5];
     const double r23 = T[6];
     const double py = T[7];
-    const double r31 = T[8];
-    const double r32 = T[9];
+    const double r33 = T[10];
     const double pz = T[11];
     const double t1 = (pz * pz) - 0.0648;
 
@@ -771,6 +780,13 @@ static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search 
         const double c1 = x1.c[k1];
         const double s1 = x1.s[k1];
 
+        /* theta2 + theta3 + theta4: two equations A s + B c + C = 0 */
+        minimover_5r_ik_unknown x234 = blank;
+        minimover_5r_ik_pair(&x234, 0.0, -1.0, r33, -1.0, 0.0, (c1 * r13) + (s1 * r23), 1.0);
+        minimover_5r_ik_turn(&x234, found->start[1] + found->start[2] + found->start[3], 3U, found);
+        const double c234 = x234.c[0];
+        const double s234 = x234.s[0];
+
         /* theta5: two equations A s + B c + C = 0 */
         minimover_5r_ik_unknown x5 = blank;
         minimover_5r_ik_pair(&x5, -1.0, 0.0, (c1 * r21) - (s1 * r11), 0.0, -1.0,
@@ -778,18 +794,10 @@ static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search 
         minimover_5r_ik_turn(&x5, found->start[4], 4U, found);
         const double c5 = x5.c[0];
         const double s5 = x5.s[0];
-        const double e11 = (s1 * ((c5 * r21) - (s5 * r22))) + (c1 * ((c5 * r11) - (s5 * r12)));
-
-        /* theta2 + theta3 + theta4: two equations A s + B c + C = 0 */
-        minimover_5r_ik_unknown x234 = blank;
-        minimover_5r_ik_pair(&x234, 0.0, -1.0, e11, -1.0, 0.0, (s5 * r32) - (c5 * r31), 1.0);
-        minimover_5r_ik_turn(&x234, found->start[1] + found->start[2] + found->start[3], 3U, found);
-        const double c234 = x234.c[0];
-        const double s234 = x234.s[0];
         const double angle1 = atan2(s1, c1);
+        const double angle234 = atan2(s234, c234);
         const double angle5 = atan2(s5, c5);
         const double ex = (c1 * px) + (s1 * py);
-        const double angle234 = atan2(s234, c234);
 
         /* theta3: A s + B c + C = 0 */
         minimover_5r_ik_unknown x3 = blank;
@@ -819,7 +827,7 @@ static void minimover_5r_ik_branches(const double T[16], minimover_5r_ik_search 
             const double angle2 = atan2(s2, c2);
 
             const double q[5] = {angle1, angle2, angle3, angle234 - (angle2 + angle3), angle5};
-            minimover_5r_ik_propose(found, q, x1.free_joints | x5.free_joints | x234.free_joints |
+            minimover_5r_ik_propose(found, q, x1.free_joints | x234.free_joints | x5.free_joints |
                 x3.free_joints | x2.free_joints);
         }
     }
@@ -893,10 +901,11 @@ static int minimover_5r_ik_goal(const double T[16], double goal[16])
     return good;
 }
 
-/* Where equations degenerate: solve for a pose near the goal and come back by Newton's method; then
-   give free joints other values. */
+/* Where equations degenerate: take more of Newton's steps; solve for poses near the goal and come
+   back by them; then give free joints other values. */
 static void minimover_5r_ik_rescue(minimover_5r_ik_search *found)
 {
+    /* Each direction and its opposite: beyond a boundary one of the two comes back within reach. */
     static const double twists[2][6] = {
         {0.83, -0.41, 0.57, -0.62, 0.94, 0.36},
         {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75},
@@ -904,26 +913,29 @@ static void minimover_5r_ik_rescue(minimover_5r_ik_search *found)
     double seed[5];
     double size = 1e-6;
     found->steps = 40;
+    found->damped = 1;
     for (int j = 0; j < 5; ++j) {
         seed[j] = found->start[j];
     }
+    minimover_5r_ik_branches(found->goal, found);
     for (int k = 0; (k < 8) && (found->count == 0); ++k) {
-        const double *v = twists[k % 2];
+        const double *v = twists[(k / 2) % 2];
+        const double by = ((k % 2) == 0) ? size : -size;
         const double *T = found->goal;
         double near_by[16];
         for (int column = 0; column < 4; ++column) {
             const double x = T[column];
             const double y = T[4 + column];
             const double z = T[8 + column];
-            near_by[column] = x + (size * ((v[1] * z) - (v[2] * y)));
-            near_by[4 + column] = y + (size * ((v[2] * x) - (v[0] * z)));
-            near_by[8 + column] = z + (size * ((v[0] * y) - (v[1] * x)));
+            near_by[column] = x + (by * ((v[1] * z) - (v[2] * y)));
+            near_by[4 + column] = y + (by * ((v[2] * x) - (v[0] * z)));
+            near_by[8 + column] = z + (by * ((v[0] * y) - (v[1] * x)));
         }
         for (int column = 12; column < 16; ++column) {
             near_by[column] = T[column];
         }
         for (int row = 0; row < 3; ++row) {
-            near_by[(4 * row) + 3] += size * found->reach * v[3 + row];
+            near_by[(4 * row) + 3] += by * found->reach * v[3 + row];
         }
         minimover_5r_ik_branches(near_by, found);
         if ((k % 2) == 1) {
@@ -998,6 +1010,7 @@ int minimover_5r_ik(const double T[16], const double *seed, double q[minimover_5
     found.reach = 0.36;
     found.count = 0;
     found.steps = 6;
+    found.damped = 0;
     found.anywhere = 0;
     found.slack = 1e-9;
     found.doubtful = 0;

@@ -297,10 +297,11 @@ typedef struct planar_2r_modified_ik_search {
     double reach;
     int count;
     int steps; /* of Newton's method at most */
-    int anywhere; /* whether any proposal is worth them, damped */
+    int damped; /* whether a step that makes it worse is taken again, shorter */
+    int anywhere; /* whether any proposal is worth them, and what is badly conditioned is free */
     double slack; /* how far beyond the reach a target counts as on its boundary */
     int doubtful; /* an equation was badly conditioned: an answer may be missing */
-    int freed; /* a joint was left free: another value may lead to an answer */
+    int freed; /* a joint is free, or nearly: another value may lead to an answer */
 } planar_2r_modified_ik_search;
 
 /* An unknown: its values as cosines and sines, a slide's in c, and how well it is conditioned. */
@@ -347,14 +348,19 @@ static void planar_2r_modified_ik_turns(
 {
     const double h = sqrt((x->a * x->a) + (x->b * x->b));
     const double beyond = fabs(x->rest) - h;
-    if (!(x->score > 1e-12)) {
+    const double least = (found->anywhere != 0) ? 1e-5 : 1e-12;
+    if (!(x->score > least)) {
         found->doubtful = 1;
-        if (fabs(x->rest) <= (1e-9 * x->whole)) {
+        if (fabs(x->rest) <= (found->slack * x->whole)) {
             found->freed = 1;
             planar_2r_modified_ik_leave(x, seed, place);
         }
     } else {
-        if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
+        if (x->score < 1e-5) {
+            found->doubtful = 1;
+            found->freed = 1;
+        }
+        if (fabs(beyond) < (1e-5 * h)) {
             found->doubtful = 1;
         }
         if (beyond <= (found->slack * h)) {
@@ -405,12 +411,13 @@ static void planar_2r_modified_ik_turn(
     planar_2r_modified_ik_unknown *x, double seed, unsigned place,
             planar_2r_modified_ik_search *found)
 {
+    const double least = (found->anywhere != 0) ? 1e-5 : 1e-24;
     if (x->score < 1e-5) {
         found->doubtful = 1;
+        found->freed = 1;
     }
     x->count = 1;
-    if (!(x->score > 1e-24)) {
-        found->freed = 1;
+    if (!(x->score > least)) {
         planar_2r_modified_ik_leave(x, seed, place);
     }
 }
@@ -493,10 +500,9 @@ static void planar_2r_modified_ik_step(
     }
 }
 
-/* Improve joint values by Newton's method, damped where that makes them worse if `damped` says so;
-   the error that is left. */
+/* Improve joint values by Newton's method; the error that is left. */
 static double planar_2r_modified_ik_improve(
-    const planar_2r_modified_ik_search *found, double q[2], double error, int damped)
+    const planar_2r_modified_ik_search *found, double q[2], double error)
 {
     double best = error;
     double damping = 0.0;
@@ -513,7 +519,7 @@ static double planar_2r_modified_ik_improve(
                 for (int k = 0; k < 2; ++k) {
                     q[k] = next[k];
                 }
-            } else if ((damped != 0) && (damping < 10.0)) {
+            } else if ((found->damped != 0) && (damping < 10.0)) {
                 damping = fmax(5.0 * damping, 1e-6);
             } else {
                 going = 0;
@@ -578,10 +584,14 @@ static void planar_2r_modified_ik_propose(
     if (usable != 0) {
         double error = planar_2r_modified_ik_error(found, q);
         if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
-            error = planar_2r_modified_ik_improve(found, q, error, found->anywhere);
+            error = planar_2r_modified_ik_improve(found, q, error);
         }
         if (!(error <= (1e-9 * found->reach))) {
             usable = 0;
+            /* So near a goal that is within reach that an answer may have been missed. */
+            if (error < (1e-3 * found->reach)) {
+                found->doubtful = 1;
+            }
         }
     }
     if (usable != 0) {
@@ -665,10 +675,11 @@ static int planar_2r_modified_ik_goal(const double T[16], double goal[16])
     return good;
 }
 
-/* Where equations degenerate: solve for a pose near the goal and come back by Newton's method; then
-   give free joints other values. */
+/* Where equations degenerate: take more of Newton's steps; solve for poses near the goal and come
+   back by them; then give free joints other values. */
 static void planar_2r_modified_ik_rescue(planar_2r_modified_ik_search *found)
 {
+    /* Each direction and its opposite: beyond a boundary one of the two comes back within reach. */
     static const double twists[2][6] = {
         {0.83, -0.41, 0.57, -0.62, 0.94, 0.36},
         {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75},
@@ -676,26 +687,29 @@ static void planar_2r_modified_ik_rescue(planar_2r_modified_ik_search *found)
     double seed[2];
     double size = 1e-6;
     found->steps = 40;
+    found->damped = 1;
     for (int j = 0; j < 2; ++j) {
         seed[j] = found->start[j];
     }
+    planar_2r_modified_ik_branches(found->goal, found);
     for (int k = 0; (k < 8) && (found->count == 0); ++k) {
-        const double *v = twists[k % 2];
+        const double *v = twists[(k / 2) % 2];
+        const double by = ((k % 2) == 0) ? size : -size;
         const double *T = found->goal;
         double near_by[16];
         for (int column = 0; column < 4; ++column) {
             const double x = T[column];
             const double y = T[4 + column];
             const double z = T[8 + column];
-            near_by[column] = x + (size * ((v[1] * z) - (v[2] * y)));
-            near_by[4 + column] = y + (size * ((v[2] * x) - (v[0] * z)));
-            near_by[8 + column] = z + (size * ((v[0] * y) - (v[1] * x)));
+            near_by[column] = x + (by * ((v[1] * z) - (v[2] * y)));
+            near_by[4 + column] = y + (by * ((v[2] * x) - (v[0] * z)));
+            near_by[8 + column] = z + (by * ((v[0] * y) - (v[1] * x)));
         }
         for (int column = 12; column < 16; ++column) {
             near_by[column] = T[column];
         }
         for (int row = 0; row < 3; ++row) {
-            near_by[(4 * row) + 3] += size * found->reach * v[3 + row];
+            near_by[(4 * row) + 3] += by * found->reach * v[3 + row];
         }
         planar_2r_modified_ik_branches(near_by, found);
         if ((k % 2) == 1) {
@@ -771,6 +785,7 @@ int planar_2r_modified_ik(const double T[16], const double *seed,
     found.reach = 15.0;
     found.count = 0;
     found.steps = 6;
+    found.damped = 0;
     found.anywhere = 0;
     found.slack = 1e-9;
     found.doubtful = 0;

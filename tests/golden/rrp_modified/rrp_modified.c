@@ -305,10 +305,11 @@ typedef struct rrp_modified_ik_search {
     double reach;
     int count;
     int steps; /* of Newton's method at most */
-    int anywhere; /* whether any proposal is worth them, damped */
+    int damped; /* whether a step that makes it worse is taken again, shorter */
+    int anywhere; /* whether any proposal is worth them, and what is badly conditioned is free */
     double slack; /* how far beyond the reach a target counts as on its boundary */
     int doubtful; /* an equation was badly conditioned: an answer may be missing */
-    int freed; /* a joint was left free: another value may lead to an answer */
+    int freed; /* a joint is free, or nearly: another value may lead to an answer */
 } rrp_modified_ik_search;
 
 /* An unknown: its values as cosines and sines, a slide's in c, and how well it is conditioned. */
@@ -353,14 +354,19 @@ static void rrp_modified_ik_turns(
 {
     const double h = sqrt((x->a * x->a) + (x->b * x->b));
     const double beyond = fabs(x->rest) - h;
-    if (!(x->score > 1e-12)) {
+    const double least = (found->anywhere != 0) ? 1e-5 : 1e-12;
+    if (!(x->score > least)) {
         found->doubtful = 1;
-        if (fabs(x->rest) <= (1e-9 * x->whole)) {
+        if (fabs(x->rest) <= (found->slack * x->whole)) {
             found->freed = 1;
             rrp_modified_ik_leave(x, seed, place);
         }
     } else {
-        if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
+        if (x->score < 1e-5) {
+            found->doubtful = 1;
+            found->freed = 1;
+        }
+        if (fabs(beyond) < (1e-5 * h)) {
             found->doubtful = 1;
         }
         if (beyond <= (found->slack * h)) {
@@ -394,12 +400,13 @@ static void rrp_modified_ik_slide(rrp_modified_ik_unknown *x, double a, double r
 static void rrp_modified_ik_shift(
     rrp_modified_ik_unknown *x, double seed, unsigned place, rrp_modified_ik_search *found)
 {
+    const double least = (found->anywhere != 0) ? 1e-5 : 1e-12;
     if (x->score < 1e-5) {
         found->doubtful = 1;
+        found->freed = 1;
     }
     x->count = 1;
-    if (!(x->score > 1e-12)) {
-        found->freed = 1;
+    if (!(x->score > least)) {
         x->c[0] = seed;
         x->free_joints = 1U << place;
     }
@@ -485,10 +492,9 @@ static void rrp_modified_ik_step(
     }
 }
 
-/* Improve joint values by Newton's method, damped where that makes them worse if `damped` says so;
-   the error that is left. */
+/* Improve joint values by Newton's method; the error that is left. */
 static double rrp_modified_ik_improve(
-    const rrp_modified_ik_search *found, double q[3], double error, int damped)
+    const rrp_modified_ik_search *found, double q[3], double error)
 {
     double best = error;
     double damping = 0.0;
@@ -505,7 +511,7 @@ static double rrp_modified_ik_improve(
                 for (int k = 0; k < 3; ++k) {
                     q[k] = next[k];
                 }
-            } else if ((damped != 0) && (damping < 10.0)) {
+            } else if ((found->damped != 0) && (damping < 10.0)) {
                 damping = fmax(5.0 * damping, 1e-6);
             } else {
                 going = 0;
@@ -567,10 +573,14 @@ static void rrp_modified_ik_propose(
     if (usable != 0) {
         double error = rrp_modified_ik_error(found, q);
         if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
-            error = rrp_modified_ik_improve(found, q, error, found->anywhere);
+            error = rrp_modified_ik_improve(found, q, error);
         }
         if (!(error <= (1e-9 * found->reach))) {
             usable = 0;
+            /* So near a goal that is within reach that an answer may have been missed. */
+            if (error < (1e-3 * found->reach)) {
+                found->doubtful = 1;
+            }
         }
     }
     if (usable != 0) {
@@ -666,10 +676,11 @@ static int rrp_modified_ik_goal(const double T[16], double goal[16])
     return good;
 }
 
-/* Where equations degenerate: solve for a pose near the goal and come back by Newton's method; then
-   give free joints other values. */
+/* Where equations degenerate: take more of Newton's steps; solve for poses near the goal and come
+   back by them; then give free joints other values. */
 static void rrp_modified_ik_rescue(rrp_modified_ik_search *found)
 {
+    /* Each direction and its opposite: beyond a boundary one of the two comes back within reach. */
     static const double twists[2][6] = {
         {0.83, -0.41, 0.57, -0.62, 0.94, 0.36},
         {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75},
@@ -677,26 +688,29 @@ static void rrp_modified_ik_rescue(rrp_modified_ik_search *found)
     double seed[3];
     double size = 1e-6;
     found->steps = 40;
+    found->damped = 1;
     for (int j = 0; j < 3; ++j) {
         seed[j] = found->start[j];
     }
+    rrp_modified_ik_branches(found->goal, found);
     for (int k = 0; (k < 8) && (found->count == 0); ++k) {
-        const double *v = twists[k % 2];
+        const double *v = twists[(k / 2) % 2];
+        const double by = ((k % 2) == 0) ? size : -size;
         const double *T = found->goal;
         double near_by[16];
         for (int column = 0; column < 4; ++column) {
             const double x = T[column];
             const double y = T[4 + column];
             const double z = T[8 + column];
-            near_by[column] = x + (size * ((v[1] * z) - (v[2] * y)));
-            near_by[4 + column] = y + (size * ((v[2] * x) - (v[0] * z)));
-            near_by[8 + column] = z + (size * ((v[0] * y) - (v[1] * x)));
+            near_by[column] = x + (by * ((v[1] * z) - (v[2] * y)));
+            near_by[4 + column] = y + (by * ((v[2] * x) - (v[0] * z)));
+            near_by[8 + column] = z + (by * ((v[0] * y) - (v[1] * x)));
         }
         for (int column = 12; column < 16; ++column) {
             near_by[column] = T[column];
         }
         for (int row = 0; row < 3; ++row) {
-            near_by[(4 * row) + 3] += size * found->reach * v[3 + row];
+            near_by[(4 * row) + 3] += by * found->reach * v[3 + row];
         }
         rrp_modified_ik_branches(near_by, found);
         if ((k % 2) == 1) {
@@ -774,6 +788,7 @@ int rrp_modified_ik(const double T[16], const rrp_modified_params *p, const doub
     found.reach = fabs(p->a2);
     found.count = 0;
     found.steps = 6;
+    found.damped = 0;
     found.anywhere = 0;
     found.slack = 1e-9;
     found.doubtful = 0;

@@ -450,10 +450,11 @@ typedef struct stanford_ik_search {
     double reach;
     int count;
     int steps; /* of Newton's method at most */
-    int anywhere; /* whether any proposal is worth them, damped */
+    int damped; /* whether a step that makes it worse is taken again, shorter */
+    int anywhere; /* whether any proposal is worth them, and what is badly conditioned is free */
     double slack; /* how far beyond the reach a target counts as on its boundary */
     int doubtful; /* an equation was badly conditioned: an answer may be missing */
-    int freed; /* a joint was left free: another value may lead to an answer */
+    int freed; /* a joint is free, or nearly: another value may lead to an answer */
 } stanford_ik_search;
 
 /* An unknown: its values as cosines and sines, a slide's in c, and how well it is conditioned. */
@@ -498,14 +499,19 @@ static void stanford_ik_turns(
 {
     const double h = sqrt((x->a * x->a) + (x->b * x->b));
     const double beyond = fabs(x->rest) - h;
-    if (!(x->score > 1e-12)) {
+    const double least = (found->anywhere != 0) ? 1e-5 : 1e-12;
+    if (!(x->score > least)) {
         found->doubtful = 1;
-        if (fabs(x->rest) <= (1e-9 * x->whole)) {
+        if (fabs(x->rest) <= (found->slack * x->whole)) {
             found->freed = 1;
             stanford_ik_leave(x, seed, place);
         }
     } else {
-        if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
+        if (x->score < 1e-5) {
+            found->doubtful = 1;
+            found->freed = 1;
+        }
+        if (fabs(beyond) < (1e-5 * h)) {
             found->doubtful = 1;
         }
         if (beyond <= (found->slack * h)) {
@@ -555,12 +561,13 @@ static void stanford_ik_pair(
 static void stanford_ik_turn(
     stanford_ik_unknown *x, double seed, unsigned place, stanford_ik_search *found)
 {
+    const double least = (found->anywhere != 0) ? 1e-5 : 1e-24;
     if (x->score < 1e-5) {
         found->doubtful = 1;
+        found->freed = 1;
     }
     x->count = 1;
-    if (!(x->score > 1e-24)) {
-        found->freed = 1;
+    if (!(x->score > least)) {
         stanford_ik_leave(x, seed, place);
     }
 }
@@ -578,12 +585,13 @@ static void stanford_ik_slide(stanford_ik_unknown *x, double a, double rest, dou
 static void stanford_ik_shift(
     stanford_ik_unknown *x, double seed, unsigned place, stanford_ik_search *found)
 {
+    const double least = (found->anywhere != 0) ? 1e-5 : 1e-12;
     if (x->score < 1e-5) {
         found->doubtful = 1;
+        found->freed = 1;
     }
     x->count = 1;
-    if (!(x->score > 1e-12)) {
-        found->freed = 1;
+    if (!(x->score > least)) {
         x->c[0] = seed;
         x->free_joints = 1U << place;
     }
@@ -689,10 +697,9 @@ static void stanford_ik_step(
     }
 }
 
-/* Improve joint values by Newton's method, damped where that makes them worse if `damped` says so;
-   the error that is left. */
+/* Improve joint values by Newton's method; the error that is left. */
 static double stanford_ik_improve(
-    const stanford_ik_search *found, double q[6], double error, int damped)
+    const stanford_ik_search *found, double q[6], double error)
 {
     double best = error;
     double damping = 0.0;
@@ -709,7 +716,7 @@ static double stanford_ik_improve(
                 for (int k = 0; k < 6; ++k) {
                     q[k] = next[k];
                 }
-            } else if ((damped != 0) && (damping < 10.0)) {
+            } else if ((found->damped != 0) && (damping < 10.0)) {
                 damping = fmax(5.0 * damping, 1e-6);
             } else {
                 going = 0;
@@ -771,10 +778,14 @@ static void stanford_ik_propose(
     if (usable != 0) {
         double error = stanford_ik_error(found, q);
         if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
-            error = stanford_ik_improve(found, q, error, found->anywhere);
+            error = stanford_ik_improve(found, q, error);
         }
         if (!(error <= (1e-9 * found->reach))) {
             usable = 0;
+            /* So near a goal that is within reach that an answer may have been missed. */
+            if (error < (1e-3 * found->reach)) {
+                found->doubtful = 1;
+            }
         }
     }
     if (usable != 0) {
@@ -836,6 +847,8 @@ static void stanford_ik_branches(const double T[16], stanford_ik_search *found)
         const double t5 = (c1 * r11) + (s1 * r21);
         const double t6 = (c1 * r12) + (s1 * r22);
         const double t7 = (c1 * r13) + (s1 * r23);
+        const double e21 = (c1 * r21) - (s1 * r11);
+        const double e22 = (c1 * r22) - (s1 * r12);
         const double e23 = (c1 * r23) - (s1 * r13);
 
         /* theta2: A s + B c + C = 0 */
@@ -852,9 +865,9 @@ static void stanford_ik_branches(const double T[16], stanford_ik_search *found)
             stanford_ik_shift(&x3, found->start[2], 2U, found);
             const double x3_ = x3.c[0];
             const double angle2 = atan2(s2, c2);
+            const double e11 = (c2 * t5) - (s2 * r31);
+            const double e12 = (c2 * t6) - (s2 * r32);
             const double e13 = (c2 * t7) - (s2 * r33);
-            const double e31 = (c2 * r31) + (s2 * t5);
-            const double e32 = (c2 * r32) + (s2 * t6);
             const double e33 = (c2 * r33) + (s2 * t7);
 
             /* theta4: A s + B c + C = 0 */
@@ -877,17 +890,8 @@ static void stanford_ik_branches(const double T[16], stanford_ik_search *found)
 
                 /* theta6: two equations A s + B c + C = 0 */
                 stanford_ik_unknown x6 = blank;
-                stanford_ik_pair(&x6, 0.0, s5, e31, -s5, 0.0, e32, 1.0);
-                if (x6.score < 1e-3) {
-                    const double t8 = c4 * c5;
-                    stanford_ik_pair(&x6, s4, -t8, (c2 * t5) - (s2 * r31), t8, s4,
-                        (c2 * t6) - (s2 * r32), 4.0);
-                }
-                if (x6.score < 1e-3) {
-                    const double t9 = s4 * c5;
-                    stanford_ik_pair(&x6, -c4, -t9, (c1 * r21) - (s1 * r11), t9, -c4,
-                        (c1 * r22) - (s1 * r12), 4.0);
-                }
+                stanford_ik_pair(&x6, -1.0, 0.0, (c4 * e21) - (s4 * e11), 0.0, -1.0,
+                    (c4 * e22) - (s4 * e12), 1.0);
                 stanford_ik_turn(&x6, found->start[5], 5U, found);
                 const double c6 = x6.c[0];
                 const double s6 = x6.s[0];
@@ -971,10 +975,11 @@ static int stanford_ik_goal(const double T[16], double goal[16])
     return good;
 }
 
-/* Where equations degenerate: solve for a pose near the goal and come back by Newton's method; then
-   give free joints other values. */
+/* Where equations degenerate: take more of Newton's steps; solve for poses near the goal and come
+   back by them; then give free joints other values. */
 static void stanford_ik_rescue(stanford_ik_search *found)
 {
+    /* Each direction and its opposite: beyond a boundary one of the two comes back within reach. */
     static const double twists[2][6] = {
         {0.83, -0.41, 0.57, -0.62, 0.94, 0.36},
         {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75},
@@ -982,26 +987,29 @@ static void stanford_ik_rescue(stanford_ik_search *found)
     double seed[6];
     double size = 1e-6;
     found->steps = 40;
+    found->damped = 1;
     for (int j = 0; j < 6; ++j) {
         seed[j] = found->start[j];
     }
+    stanford_ik_branches(found->goal, found);
     for (int k = 0; (k < 8) && (found->count == 0); ++k) {
-        const double *v = twists[k % 2];
+        const double *v = twists[(k / 2) % 2];
+        const double by = ((k % 2) == 0) ? size : -size;
         const double *T = found->goal;
         double near_by[16];
         for (int column = 0; column < 4; ++column) {
             const double x = T[column];
             const double y = T[4 + column];
             const double z = T[8 + column];
-            near_by[column] = x + (size * ((v[1] * z) - (v[2] * y)));
-            near_by[4 + column] = y + (size * ((v[2] * x) - (v[0] * z)));
-            near_by[8 + column] = z + (size * ((v[0] * y) - (v[1] * x)));
+            near_by[column] = x + (by * ((v[1] * z) - (v[2] * y)));
+            near_by[4 + column] = y + (by * ((v[2] * x) - (v[0] * z)));
+            near_by[8 + column] = z + (by * ((v[0] * y) - (v[1] * x)));
         }
         for (int column = 12; column < 16; ++column) {
             near_by[column] = T[column];
         }
         for (int row = 0; row < 3; ++row) {
-            near_by[(4 * row) + 3] += size * found->reach * v[3 + row];
+            near_by[(4 * row) + 3] += by * found->reach * v[3 + row];
         }
         stanford_ik_branches(near_by, found);
         if ((k % 2) == 1) {
@@ -1078,6 +1086,7 @@ int stanford_ik(const double T[16], const double *seed, double q[stanford_IK_MAX
     found.reach = 0.829;
     found.count = 0;
     found.steps = 6;
+    found.damped = 0;
     found.anywhere = 0;
     found.slack = 1e-9;
     found.doubtful = 0;

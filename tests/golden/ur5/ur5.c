@@ -465,10 +465,11 @@ typedef struct ur5_ik_search {
     double reach;
     int count;
     int steps; /* of Newton's method at most */
-    int anywhere; /* whether any proposal is worth them, damped */
+    int damped; /* whether a step that makes it worse is taken again, shorter */
+    int anywhere; /* whether any proposal is worth them, and what is badly conditioned is free */
     double slack; /* how far beyond the reach a target counts as on its boundary */
     int doubtful; /* an equation was badly conditioned: an answer may be missing */
-    int freed; /* a joint was left free: another value may lead to an answer */
+    int freed; /* a joint is free, or nearly: another value may lead to an answer */
 } ur5_ik_search;
 
 /* An unknown: its values as cosines and sines, a slide's in c, and how well it is conditioned. */
@@ -513,14 +514,19 @@ static void ur5_ik_turns(
 {
     const double h = sqrt((x->a * x->a) + (x->b * x->b));
     const double beyond = fabs(x->rest) - h;
-    if (!(x->score > 1e-12)) {
+    const double least = (found->anywhere != 0) ? 1e-5 : 1e-12;
+    if (!(x->score > least)) {
         found->doubtful = 1;
-        if (fabs(x->rest) <= (1e-9 * x->whole)) {
+        if (fabs(x->rest) <= (found->slack * x->whole)) {
             found->freed = 1;
             ur5_ik_leave(x, seed, place);
         }
     } else {
-        if ((x->score < 1e-5) || (fabs(beyond) < (1e-5 * h))) {
+        if (x->score < 1e-5) {
+            found->doubtful = 1;
+            found->freed = 1;
+        }
+        if (fabs(beyond) < (1e-5 * h)) {
             found->doubtful = 1;
         }
         if (beyond <= (found->slack * h)) {
@@ -570,12 +576,13 @@ static void ur5_ik_pair(
 static void ur5_ik_turn(
     ur5_ik_unknown *x, double seed, unsigned place, ur5_ik_search *found)
 {
+    const double least = (found->anywhere != 0) ? 1e-5 : 1e-24;
     if (x->score < 1e-5) {
         found->doubtful = 1;
+        found->freed = 1;
     }
     x->count = 1;
-    if (!(x->score > 1e-24)) {
-        found->freed = 1;
+    if (!(x->score > least)) {
         ur5_ik_leave(x, seed, place);
     }
 }
@@ -680,10 +687,9 @@ static void ur5_ik_step(
     }
 }
 
-/* Improve joint values by Newton's method, damped where that makes them worse if `damped` says so;
-   the error that is left. */
+/* Improve joint values by Newton's method; the error that is left. */
 static double ur5_ik_improve(
-    const ur5_ik_search *found, double q[6], double error, int damped)
+    const ur5_ik_search *found, double q[6], double error)
 {
     double best = error;
     double damping = 0.0;
@@ -700,7 +706,7 @@ static double ur5_ik_improve(
                 for (int k = 0; k < 6; ++k) {
                     q[k] = next[k];
                 }
-            } else if ((damped != 0) && (damping < 10.0)) {
+            } else if ((found->damped != 0) && (damping < 10.0)) {
                 damping = fmax(5.0 * damping, 1e-6);
             } else {
                 going = 0;
@@ -763,10 +769,14 @@ static void ur5_ik_propose(
     if (usable != 0) {
         double error = ur5_ik_error(found, q);
         if ((error < (0.05 * found->reach)) || (found->anywhere != 0)) {
-            error = ur5_ik_improve(found, q, error, found->anywhere);
+            error = ur5_ik_improve(found, q, error);
         }
         if (!(error <= (1e-9 * found->reach))) {
             usable = 0;
+            /* So near a goal that is within reach that an answer may have been missed. */
+            if (error < (1e-3 * found->reach)) {
+                found->doubtful = 1;
+            }
         }
     }
     if (usable != 0) {
@@ -825,6 +835,8 @@ static void ur5_ik_branches(const double T[16], ur5_ik_search *found)
         const double angle1 = atan2(s1, c1);
         const double t4 = (c1 * r13) + (s1 * r23);
         const double t5 = (s1 * r13) - (c1 * r23);
+        const double t6 = (s1 * r11) - (c1 * r21);
+        const double t7 = (s1 * r12) - (c1 * r22);
 
         /* theta2 + theta3 + theta4: A s + B c + C = 0 */
         ur5_ik_unknown x234 = blank;
@@ -840,17 +852,16 @@ static void ur5_ik_branches(const double T[16], ur5_ik_search *found)
             ur5_ik_turn(&x5, found->start[4], 4U, found);
             const double c5 = x5.c[0];
             const double s5 = x5.s[0];
-            const double t6 = c5 * s234;
 
             /* theta6: two equations A s + B c + C = 0 */
             ur5_ik_unknown x6 = blank;
-            ur5_ik_pair(&x6, -c234, -t6, r31, t6, -c234, r32, 4.0);
+            ur5_ik_pair(&x6, 0.0, -s5, t6, s5, 0.0, t7, 1.0);
             if (x6.score < 1e-3) {
-                ur5_ik_pair(&x6, -r32, r31, -t6, r31, r32, -c234, 4.0);
+                const double t14 = c5 * s234;
+                ur5_ik_pair(&x6, -c234, -t14, r31, t14, -c234, r32, 4.0);
             }
             if (x6.score < 1e-3) {
-                ur5_ik_pair(&x6, 0.0, -s5, (s1 * r11) - (c1 * r21), s5, 0.0,
-                    (s1 * r12) - (c1 * r22), 1.0);
+                ur5_ik_pair(&x6, -r32, r31, -c5 * s234, r31, r32, -c234, 4.0);
             }
             ur5_ik_turn(&x6, found->start[5], 5U, found);
             const double c6 = x6.c[0];
@@ -858,12 +869,12 @@ static void ur5_ik_branches(const double T[16], ur5_ik_search *found)
             const double angle234 = atan2(s234, c234);
             const double angle5 = atan2(s5, c5);
             const double angle6 = atan2(s6, c6);
-            const double t7 = 0.09465 * c6;
-            const double t8 = 0.09465 * s6;
-            const double t9 = c1 * ((r12 * t7) + (r11 * t8) + t1);
-            const double t10 = s1 * ((r22 * t7) + (r21 * t8) + t2);
-            const double ex = t10 + t9;
-            const double ey = (r32 * t7) + (r31 * t8) + t3;
+            const double t8 = 0.09465 * c6;
+            const double t9 = 0.09465 * s6;
+            const double t10 = c1 * ((r12 * t8) + (r11 * t9) + t1);
+            const double t11 = s1 * ((r22 * t8) + (r21 * t9) + t2);
+            const double ex = t11 + t10;
+            const double ey = (r32 * t8) + (r31 * t9) + t3;
 
             /* theta3: A s + B c + C = 0 */
             ur5_ik_unknown x3 = blank;
@@ -873,18 +884,18 @@ static void ur5_ik_branches(const double T[16], ur5_ik_search *found)
             for (int k3 = 0; k3 < x3.count; ++k3) {
                 const double c3 = x3.c[k3];
                 const double s3 = x3.s[k3];
-                const double t11 = 0.39225 * s3;
-                const double t12 = (0.39225 * c3) + 0.425;
+                const double t12 = 0.39225 * s3;
+                const double t13 = (0.39225 * c3) + 0.425;
 
                 /* theta2: two equations A s + B c + C = 0 */
                 ur5_ik_unknown x2 = blank;
-                ur5_ik_pair(&x2, -t11, t12, ex, t12, t11, ey, 1.46289025);
+                ur5_ik_pair(&x2, -t12, t13, ex, t13, t12, ey, 1.46289025);
                 if (x2.score < 1e-3) {
-                    const double t13 = (c1 * t1) + (s1 * t2) - (0.09465 * s234);
-                    ur5_ik_pair(&x2, t12, t11, ey, -t11, t12, t13, 1.46289025);
+                    const double t15 = (c1 * t1) + (s1 * t2) - (0.09465 * s234);
+                    ur5_ik_pair(&x2, t13, t12, ey, -t12, t13, t15, 1.46289025);
                 }
                 if (x2.score < 1e-3) {
-                    ur5_ik_pair(&x2, -ex, ey, t11, -t11, t12, ex, 2.885404971);
+                    ur5_ik_pair(&x2, -ex, ey, t12, -t12, t13, ex, 2.885404971);
                 }
                 ur5_ik_turn(&x2, found->start[1], 1U, found);
                 const double c2 = x2.c[0];
@@ -969,10 +980,11 @@ static int ur5_ik_goal(const double T[16], double goal[16])
     return good;
 }
 
-/* Where equations degenerate: solve for a pose near the goal and come back by Newton's method; then
-   give free joints other values. */
+/* Where equations degenerate: take more of Newton's steps; solve for poses near the goal and come
+   back by them; then give free joints other values. */
 static void ur5_ik_rescue(ur5_ik_search *found)
 {
+    /* Each direction and its opposite: beyond a boundary one of the two comes back within reach. */
     static const double twists[2][6] = {
         {0.83, -0.41, 0.57, -0.62, 0.94, 0.36},
         {-0.29, 0.71, -0.66, 0.88, -0.47, -0.75},
@@ -980,26 +992,29 @@ static void ur5_ik_rescue(ur5_ik_search *found)
     double seed[6];
     double size = 1e-6;
     found->steps = 40;
+    found->damped = 1;
     for (int j = 0; j < 6; ++j) {
         seed[j] = found->start[j];
     }
+    ur5_ik_branches(found->goal, found);
     for (int k = 0; (k < 8) && (found->count == 0); ++k) {
-        const double *v = twists[k % 2];
+        const double *v = twists[(k / 2) % 2];
+        const double by = ((k % 2) == 0) ? size : -size;
         const double *T = found->goal;
         double near_by[16];
         for (int column = 0; column < 4; ++column) {
             const double x = T[column];
             const double y = T[4 + column];
             const double z = T[8 + column];
-            near_by[column] = x + (size * ((v[1] * z) - (v[2] * y)));
-            near_by[4 + column] = y + (size * ((v[2] * x) - (v[0] * z)));
-            near_by[8 + column] = z + (size * ((v[0] * y) - (v[1] * x)));
+            near_by[column] = x + (by * ((v[1] * z) - (v[2] * y)));
+            near_by[4 + column] = y + (by * ((v[2] * x) - (v[0] * z)));
+            near_by[8 + column] = z + (by * ((v[0] * y) - (v[1] * x)));
         }
         for (int column = 12; column < 16; ++column) {
             near_by[column] = T[column];
         }
         for (int row = 0; row < 3; ++row) {
-            near_by[(4 * row) + 3] += size * found->reach * v[3 + row];
+            near_by[(4 * row) + 3] += by * found->reach * v[3 + row];
         }
         ur5_ik_branches(near_by, found);
         if ((k % 2) == 1) {
@@ -1073,6 +1088,7 @@ int ur5_ik(const double T[16], const double *seed, double q[ur5_IK_MAX][6], unsi
     found.reach = 1.192809;
     found.count = 0;
     found.steps = 6;
+    found.damped = 0;
     found.anywhere = 0;
     found.slack = 1e-9;
     found.doubtful = 0;
