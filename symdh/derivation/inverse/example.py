@@ -11,6 +11,7 @@ from symdh.derivation.attitude import rounded_angle
 from symdh.derivation.blocks import Block, Chapter, EntryStep, EntrySteps, Paragraph
 from symdh.derivation.inverse.names import Worked, Writer
 from symdh.derivation.inverse.numbers import Solved
+from symdh.kinematics.frame import Frame
 from symdh.kinematics.numeric import pose
 from symdh.notation.nodes import Node, Rounded
 from symdh.notation.numbers import figures
@@ -73,7 +74,9 @@ def _numbers(writer: Writer, solved: Solved) -> dict[Symbol, Expr]:
     numbers |= {letter: meaning.xreplace(numbers) for letter, meaning in arm.meanings.items()}
     pairs = zip(arm.given.variables, solved.answers[0].q, strict=True)
     numbers |= {variable: Float(q, 17) for variable, q in pairs}
-    reached = pose(arm.given, 0, "tool" if arm.tool_inside else arm.given.n, numbers)
+    first: Frame = "base" if arm.base_inside else 0
+    last: Frame = "tool" if arm.tool_inside else arm.given.n
+    reached = pose(arm.given, first, last, numbers)
     for r in range(3):
         for c in range(3):
             numbers[Symbol(f"r_{r + 1}{c + 1}", real=True)] = Float(reached[r][c], 17)
