@@ -68,7 +68,9 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
         module=files[0].name,
         rows=poses.rows,
         parameters=required_values(program, poses.parameters),
+        inverse=poses.inverse is not None,
     )
     # Not called check.mjs: the table may be.
     driver = GeneratedFile("symdh_check_poses.mjs", main)
-    return CheckProgram((driver,), ((find_program("node", "nodejs"), driver.name),))
+    command = (find_program("node", "nodejs"), driver.name)
+    return CheckProgram((driver,), (command,), answers=poses.inverse is not None)

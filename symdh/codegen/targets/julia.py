@@ -84,7 +84,9 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
         module=_module(file_stem(robot.name)),
         rows=poses.rows,
         parameters=required_values(program, poses.parameters),
+        inverse=poses.inverse is not None,
     )
     # Not called check.jl: the table may be.
     driver = GeneratedFile("symdh_check_poses.jl", main)
-    return CheckProgram((driver,), ((find_program("julia"), "--startup-file=no", driver.name),))
+    command = (find_program("julia"), "--startup-file=no", driver.name)
+    return CheckProgram((driver,), (command,), answers=poses.inverse is not None)

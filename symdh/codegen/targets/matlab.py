@@ -86,10 +86,12 @@ def check_program(robot: Robot, files: Sequence[GeneratedFile], poses: Poses) ->
     program = write_program(robot, _LANGUAGE)
     main = render(
         "matlab/check.m.jinja",
-        function=files[0].name.removesuffix(".m"),
+        stem=file_stem(robot.name),
         rows=poses.rows,
         parameters=required_values(program, poses.parameters),
+        inverse=poses.inverse is not None,
     )
     driver = GeneratedFile("symdh_check_poses.m", main)
     octave = find_program("octave-cli", "octave")
-    return CheckProgram((driver,), ((octave, "--norc", "--no-history", "--quiet", driver.name),))
+    command = (octave, "--norc", "--no-history", "--quiet", driver.name)
+    return CheckProgram((driver,), (command,), answers=poses.inverse is not None)
