@@ -45,7 +45,7 @@ from symdh.codegen import generate
 from symdh.codegen.c.folding import fold
 from symdh.codegen.forward import forward_routine
 from symdh.codegen.graph import Op
-from symdh.codegen.inverse.c import CSection
+from symdh.codegen.inverse.compiled import Section
 from symdh.codegen.precision import DOUBLE, FLOAT, Precision
 from symdh.codegen.stages import cut_stages
 from symdh.codegen.targets import c
@@ -81,7 +81,8 @@ _numbers = itertools.count()
 @pytest.fixture(autouse=True)
 def _without_inverse(monkeypatch: pytest.MonkeyPatch) -> None:
     """Leave the inverse kinematics out: half of every compiler's time, and not looked at here."""
-    monkeypatch.setattr(c, "c_section", lambda *arguments: CSection("it is not looked at here"))
+    without = Section("it is not looked at here")
+    monkeypatch.setattr(c, "c_section", lambda *arguments, **options: without)
 
 
 @dataclass(frozen=True)
