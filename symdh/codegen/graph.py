@@ -6,7 +6,6 @@ outward, so that ``-a*b``, ``a*(-b)`` and ``-(a*b)`` are one node.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -72,15 +71,9 @@ class Graph:
     """Makes nodes, and never makes one twice."""
 
     def __init__(self) -> None:
-        self._nodes: list[Node] = []
         self._known: dict[tuple[object, ...], Node] = {}
         self.zero = self.constant(Integer(0))
         self.one = self.constant(Integer(1))
-
-    @property
-    def nodes(self) -> Sequence[Node]:
-        """Every node, arguments before what uses them."""
-        return self._nodes
 
     def constant(self, value: Expr) -> Node:
         """Return the node of an exact real number.
@@ -170,8 +163,7 @@ class Graph:
         known = self._find(op, *args, value=value)
         if known is not None:
             return known
-        node = Node(len(self._nodes), op, args, value)
-        self._nodes.append(node)
+        node = Node(len(self._known), op, args, value)
         self._known[_key(op, args, value)] = node
         return node
 
