@@ -289,8 +289,8 @@ def main() -> int:
     low, high = interval(part, len(drawn))
     verdict = "met" if 100 * part >= GOAL else "NOT MET"
     print(
-        f"killed {killed.total()} of {len(drawn)} = {100 * part:.1f} %, 95 % interval"
-        f" {100 * low:.0f} to {100 * high:.0f} %   at least {GOAL} %   {verdict}"
+        f"{killed.total()} of {len(drawn)} killed = {100 * part:.1f} % ({100 * low:.0f} to"
+        f" {100 * high:.0f} %)   at least {GOAL} %   {verdict}"
     )
     return int(100 * part < GOAL)
 
