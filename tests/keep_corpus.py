@@ -20,7 +20,7 @@ from readers import KEPT, TARGETS
 from symdh.errors import SymdhError
 
 Step = tuple[str, int, int]
-LONGEST = 2048
+LONGEST = 512
 
 
 def steps(read: Callable[[bytes], None], data: bytes) -> set[Step]:

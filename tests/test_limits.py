@@ -156,9 +156,9 @@ LIMITS: dict[str, tuple[Reader, str, str, str]] = {
     ),
     "functions": (
         table,
-        rows(176, alpha="acos(1/3)"),
-        rows(177, alpha="acos(1/3)"),
-        "over the limit of 20000 signs, of which a function of numbers counts 100",
+        rows(164, alpha="acos(1/3)"),
+        rows(165, alpha="acos(1/3)"),
+        "over the limit of 12000 signs, of which a function of numbers counts 60",
     ),
     "aliases": (table, f"{HEAD}{ONE}", f"{HEAD}{ONE}notes: [&a 1, *a]", "anchor &a is not allowed"),
     "rows of CSV": (csv, lines(200), lines(501), "more than 500 rows"),
@@ -166,7 +166,7 @@ LIMITS: dict[str, tuple[Reader, str, str, str]] = {
     "settings of CSV": (
         csv,
         lines(1),
-        "# notes: a\n" * 50 + lines(1),
+        "# title: a\n" * 51 + lines(1),
         "more than 50 settings in comments",
     ),
     "joints of axes": (axes, mechanism(50), mechanism(51), "51 joints|over 50"),

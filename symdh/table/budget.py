@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from symdh.table.lexer import ExpressionError
 
-MAX_EFFORT = 20_000
-OF_NUMBERS = 100
+MAX_EFFORT = 12_000
+OF_NUMBERS = 60
 """The exact value of a function or a root of numbers, cos(pi/7), costs as much as many signs."""
 
 
