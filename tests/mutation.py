@@ -5,7 +5,7 @@ each (an operator, a comparison, a number, a condition, a result), and runs the 
 the changed line on a copy of the tree until one fails: first those that reach little else, then
 all of them, up to some minutes. Which they are is measured first, with coverage, and kept in
 `.mutation` until a file changes. Prints each survivor, to be read, the part that was killed, and
-its 95 % interval. `tests/survivors.md` says why those that remain are no faults of the tests.
+its 95 % interval.
 
 Why not mutmut or cosmic-ray: mutmut 3.8 changes no code outside functions and in few with a
 decorator, and takes no sample; cosmic-ray 8.7 runs one command for all mutants, here the whole
