@@ -5,7 +5,7 @@ each (an operator, a comparison, a number, a condition, a result), and runs the 
 the changed line on a copy of the tree until one fails: first those that reach little else, then
 all of them, up to some minutes. Which they are is measured first, with coverage, and kept in
 `.mutation` until a file changes. Prints each survivor, to be read, the part that was killed, and
-its 95 % interval. `tests/survivors.md` says why those that remain are no faults of the tests.
+its 95 % interval.
 
 Why not mutmut or cosmic-ray: mutmut 3.8 changes no code outside functions and in few with a
 decorator, and takes no sample; cosmic-ray 8.7 runs one command for all mutants, here the whole
@@ -289,8 +289,8 @@ def main() -> int:
     low, high = interval(part, len(drawn))
     verdict = "met" if 100 * part >= GOAL else "NOT MET"
     print(
-        f"killed {killed.total()} of {len(drawn)} = {100 * part:.1f} %, 95 % interval"
-        f" {100 * low:.0f} to {100 * high:.0f} %   at least {GOAL} %   {verdict}"
+        f"{killed.total()} of {len(drawn)} killed = {100 * part:.1f} % ({100 * low:.0f} to"
+        f" {100 * high:.0f} %)   at least {GOAL} %   {verdict}"
     )
     return int(100 * part < GOAL)
 

@@ -907,6 +907,20 @@ def test_numbers_that_no_double_holds_are_refused(value: Expr) -> None:
 # ---------------------------------------------------------------------------------- fingerprint
 
 
+def test_a_header_and_a_source_of_different_tables_do_not_compile(tmp_path: Path) -> None:
+    gcc = require_tool("gcc")
+    longer = replace(SCARA, values={**SCARA.values, Symbol("a1", real=True): Rational(1, 2)})
+    header, _ = generate(SCARA, "c")
+    for robot, compiles in ((SCARA, True), (longer, False)):
+        source = generate(robot, "c")[1]
+        (tmp_path / header.name).write_text(header.text)
+        (tmp_path / source.name).write_text(source.text)
+        command = [gcc, "-c", source.name, "-o", "out.o"]
+        ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert (ran.returncode == 0) is compiles
+        assert ("come from different tables: generate both again" in ran.stderr) is not compiles
+
+
 def test_fingerprint_is_the_hash_of_a_plain_text() -> None:
     text = "\n".join(
         [

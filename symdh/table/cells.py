@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from sympy import Expr, Symbol
 
 from symdh.robot import AngleUnit, LengthUnit, Units
+from symdh.table.budget import Budget
 from symdh.table.lexer import MAX_EXPRESSION, ExpressionError
 from symdh.table.nodes import MappingNode, Node, ScalarNode
 from symdh.table.parser import parse
@@ -64,6 +65,7 @@ class CellReader:
         self.longest = longest
         self.uses_length_unit = False
         self.complete = True
+        self._budget = Budget()
         self._bare_lengths: list[Place] = []
 
     def read(
@@ -88,9 +90,12 @@ class CellReader:
         unit: Unit | None = None,
     ) -> Cell | None:
         """Read the expression between two offsets of a text; see `read`."""
+        if self._budget.is_spent:
+            self.complete = False
+            return None
         units = replace(self.units, angle=unit) if isinstance(unit, AngleUnit) else self.units
         try:
-            parsed = parse(node.text[start:end], units, self.longest)
+            parsed = parse(node.text[start:end], units, self.longest, self._budget)
         except ExpressionError as problem:
             self.report.error(node.place(start + problem.offset), problem.message)
             self.complete = False

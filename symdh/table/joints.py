@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -66,9 +67,10 @@ def read_joints(rows: Sequence[Row], others: Sequence[Cell], reader: CellReader)
         With errors in the report where a row is wrong.
     """
     cells = [_read_cells(row, reader) for row in rows]
+    places = _places(cells, others)
     parsed = [
-        _read_joint(row, cells[index], _symbols_elsewhere(index, cells, others), reader.report)
-        for index, row in enumerate(rows)
+        _read_joint(row, row_cells, places, reader.report)
+        for row, row_cells in zip(rows, cells, strict=True)
     ]
     _refuse_second_places(parsed, others, reader.report)
     return parsed
@@ -84,22 +86,16 @@ def _read_cells(row: Row, reader: CellReader) -> dict[str, Cell]:
     return found
 
 
-def _symbols_elsewhere(
-    index: int, cells: Sequence[Mapping[str, Cell]], others: Sequence[Cell]
-) -> dict[str, set[Symbol]]:
-    """Return, for theta and for d of one row, the symbols in all other cells of the table."""
-    outside = {symbol for cell in others for symbol in cell.names}
-    for other, row_cells in enumerate(cells):
-        if other != index:
-            outside.update(symbol for cell in row_cells.values() for symbol in cell.names)
-    return {
-        home: outside.union(*(cell.names for name, cell in cells[index].items() if name != home))
-        for home in HOMES.values()
-    }
+def _places(cells: Sequence[Mapping[str, Cell]], others: Sequence[Cell]) -> Counter[Symbol]:
+    """Return in how many cells of the table each symbol stands."""
+    counted: Counter[Symbol] = Counter()
+    for cell in [*others, *(cell for row in cells for cell in row.values())]:
+        counted.update(cell.names.keys())
+    return counted
 
 
 def _read_joint(
-    row: Row, cells: Mapping[str, Cell], elsewhere: Mapping[str, set[Symbol]], report: Report
+    row: Row, cells: Mapping[str, Cell], places: Mapping[Symbol, int], report: Report
 ) -> ParsedRow:
     named = read_named_variable(row, report)
     kind = read_type(row, cells, named.symbol if named else None, report)
@@ -109,7 +105,8 @@ def _read_joint(
     if home is None or home not in cells:
         return ParsedRow(row, cells, kind)
     try:
-        variable = choose_variable(cells[home], home, row.number, named, elsewhere[home])
+        elsewhere = {symbol for symbol in cells[home].names if places[symbol] > 1}
+        variable = choose_variable(cells[home], home, row.number, named, elsewhere)
     except VariableError as problem:
         report.error(problem.place, problem.message)
         return ParsedRow(row, cells, kind)

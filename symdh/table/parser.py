@@ -15,6 +15,7 @@ from sympy import Rational, Symbol, pi
 
 from symdh.robot import Units
 from symdh.table import quantity as algebra
+from symdh.table.budget import OF_NUMBERS, Budget
 from symdh.table.functions import apply
 from symdh.table.lexer import MAX_EXPRESSION, ExpressionError, Token, TokenKind, tokenize
 from symdh.table.names import CONSTANT, FUNCTION_NAMES, canonical_name, why_reserved
@@ -59,7 +60,9 @@ class ParsedExpression:
     has_length_unit: bool
 
 
-def parse(text: str, units: Units, longest: int = MAX_EXPRESSION) -> ParsedExpression:
+def parse(
+    text: str, units: Units, longest: int = MAX_EXPRESSION, budget: Budget | None = None
+) -> ParsedExpression:
     """Read an expression.
 
     Parameters
@@ -70,6 +73,8 @@ def parse(text: str, units: Units, longest: int = MAX_EXPRESSION) -> ParsedExpre
         converted to; metre when there is none.
     longest : int
         How many characters it may have.
+    budget : Budget, optional
+        What is left for this and other expressions; by default this one has it alone.
 
     Raises
     ------
@@ -78,7 +83,11 @@ def parse(text: str, units: Units, longest: int = MAX_EXPRESSION) -> ParsedExpre
     """
     if _NOT_A_NUMBER.fullmatch(text):
         raise ExpressionError(0, f"{text.strip()} is reserved and not a number")
-    return _Parser(text, units, longest).parse()
+    try:
+        return _Parser(text, units, longest, budget or Budget()).parse()
+    except ValueError:  # sympy 1.14 fails to factor some products of two large primes
+        message = "a root here cannot be taken exactly: the factors of the number are too large"
+        raise ExpressionError(0, message) from None
 
 
 @dataclass(slots=True)
@@ -88,6 +97,7 @@ class _Parser:
     text: str
     units: Units
     longest: int
+    budget: Budget
     tokens: list[Token] = field(init=False)
     index: int = 0
     depth: int = 0
@@ -97,6 +107,7 @@ class _Parser:
 
     def __post_init__(self) -> None:
         self.tokens = tokenize(self.text, self.longest)
+        self.budget.spend(len(self.tokens), 0)
 
     def peek(self) -> Token:
         return self.tokens[self.index]
@@ -134,7 +145,10 @@ class _Parser:
         operator = self.take()
         if operator.text in ("**", "^"):
             # A sign may stand in an exponent, and powers group to the right: 2**-1, 2**3**2.
-            return algebra.power(left, self.expression(_SIGN), operator.offset)
+            exponent = self.expression(_SIGN)
+            if not exponent.total.is_integer:
+                self.spend_on([left], operator.offset)
+            return algebra.power(left, exponent, operator.offset)
         right_token = self.peek()
         right = self.expression(_BINARY[operator.text])
         if operator.text == "/":
@@ -223,10 +237,16 @@ class _Parser:
             self.take()
             arguments.append(self.expression(0))
         self.close()
+        self.spend_on(arguments, token.offset)
         value, remark = apply(name, arguments, self.units, token.offset)
         if remark:
             self.remarks.append(Remark(arguments[0].start, remark))
         return value
+
+    def spend_on(self, operands: list[Quantity], offset: int) -> None:
+        """Count what a function or a root costs beyond its signs."""
+        if not any(each.total.free_symbols for each in operands):
+            self.budget.spend(OF_NUMBERS, offset)
 
     def refuse(self, token: Token) -> NoReturn:
         """Raise the error for a token that cannot stand where it does."""

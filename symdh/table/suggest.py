@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
 MAX_SHOWN = 40
+MAX_COMPARED = 100
+"""Among more words than that, none is looked for that is like a wrong one: it takes too long."""
 
 
 def brief(written: str) -> str:
@@ -37,7 +39,8 @@ def did_you_mean(
     right = (aliases or {}).get(folded)
     if right is None:
         by_folded = {name.casefold(): name for name in known}
-        close = get_close_matches(folded, by_folded, n=1, cutoff=likeness)
+        compared = by_folded if len(by_folded) <= MAX_COMPARED else ()
+        close = get_close_matches(folded, compared, n=1, cutoff=likeness)
         right = by_folded[close[0]] if close else None
     return f"; did you mean {right}?" if right else ""
 

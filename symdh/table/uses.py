@@ -33,12 +33,18 @@ def symbol_dimension(robot: Robot, symbol: Symbol) -> Dimension | None:
 
 
 def _uses(expression: Expr, dimension: Dimension | None) -> Iterator[tuple[Symbol, Dimension]]:
-    for term in Add.make_args(expression):
-        factor = term.as_coeff_Mul()[1]
-        if isinstance(factor, Symbol) and dimension is not None:
-            yield factor, dimension
+    if dimension is not None:
+        yield from _terms(expression, dimension)
+    # These are all of them, those inside others included.
     for call in expression.atoms(sin, cos, tan):
-        yield from _uses(call.args[0], ANGLE)
+        yield from _terms(call.args[0], ANGLE)
+
+
+def _terms(total: Expr, dimension: Dimension) -> Iterator[tuple[Symbol, Dimension]]:
+    for term in Add.make_args(total):
+        factor = term.as_coeff_Mul()[1]
+        if isinstance(factor, Symbol):
+            yield factor, dimension
 
 
 def _expressions(robot: Robot) -> Iterator[tuple[Expr, Dimension]]:

@@ -53,7 +53,8 @@ def choose_variable(
     named : NamedVariable or None
         The variable that the row names.
     elsewhere : set of Symbol
-        The symbols in all other cells of the table, among which a variable cannot be.
+        Those of the cell's symbols that stand in other cells of the table too, among which a
+        variable cannot be.
 
     Raises
     ------
