@@ -7,7 +7,8 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed-for-development
 
 .DEFAULT_GOAL := help
-.PHONY: help run test check golden bench bench-ik bench-code accuracy lint-c repro trust trust-cut vendor clean coverage mutants lock audit check-ik
+.PHONY: help run test coverage check golden check-ik bench bench-ik bench-code accuracy lint-c \
+	repro mutants lock audit trust trust-cut vendor clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 16
