@@ -11,7 +11,7 @@ from symdh.codegen.c.printer import CPrinter
 from symdh.codegen.facts import Facts
 from symdh.codegen.graph import Op
 from symdh.codegen.inverse.breaking import broken
-from symdh.codegen.inverse.compiled import Access, Section, section
+from symdh.codegen.inverse.compiled import Access, CompiledSection, section
 from symdh.codegen.inverse.found import LEFT_OUT, Missing
 from symdh.codegen.inverse.lowering import inverse_program
 from symdh.codegen.inverse.writing import write_program
@@ -44,7 +44,7 @@ def c_section(
     locked: tuple[Symbol, ...] = (),
     *,
     wanted: bool = True,
-) -> Section:
+) -> CompiledSection:
     """Write the inverse kinematics of a robot in C.
 
     Parameters
@@ -67,7 +67,7 @@ def c_section(
     """
     program = inverse_program(robot, known, locked) if wanted else LEFT_OUT
     if isinstance(program, Missing):
-        return Section(program.reason)
+        return CompiledSection(program.reason)
     own = {*OWN_IN_BRANCHES, *functions.values(), *(f"{stem}_ik_{name}" for name in _NAMES)}
     own.add(f"{stem}_ik")
     scope = Scope(lambda name: name in own or is_reserved_in_c(name))

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from sympy import Symbol
 
 from symdh.codegen.facts import Facts
-from symdh.codegen.inverse.constants import held_joints
 from symdh.codegen.inverse.program import Kind, Program
-from symdh.codegen.inverse.writing import WrittenProgram, WrittenProposal, WrittenSolve
+from symdh.codegen.inverse.section import Section, locked_note
+from symdh.codegen.inverse.writing import WrittenProgram, WrittenProposal
 from symdh.robot import Robot
 
 
@@ -34,43 +34,19 @@ class Access:
 
 
 @dataclass(frozen=True)
-class Section:
-    """What a template gets as ``ik``.
+class CompiledSection(Section):
+    """What the template of a compiled language gets as ``ik``.
 
     Attributes
     ----------
-    reason : str
-        Why there is no inverse kinematics; the other fields have no meaning then.
-    program : WrittenProgram or None
-    plan : Program or None
     reads : tuple of (place, name)
         What the branches read first.
     limits : tuple of (lower, upper)
         As literals, None where the table gives none; empty where it gives none at all.
-    locked_note : str
-    start : str
-        As in `Access`.
     """
 
-    reason: str
-    program: WrittenProgram | None = None
-    plan: Program | None = None
     reads: tuple[tuple[str, str], ...] = ()
     limits: tuple[tuple[str, str] | None, ...] = ()
-    locked_note: str = ""
-    start: str = ""
-
-    @property
-    def given(self) -> Program:
-        """The plan, which is there where there is no reason against it."""
-        assert self.plan is not None
-        return self.plan
-
-    @property
-    def written(self) -> WrittenProgram:
-        """The program, likewise."""
-        assert self.program is not None
-        return self.program
 
     @property
     def most(self) -> int:
@@ -91,11 +67,6 @@ class Section:
     def free(self) -> tuple[int, ...]:
         """Their places."""
         return self.given.free
-
-    @property
-    def locked(self) -> list[int]:
-        """The places of the others, which are held."""
-        return [k for k in range(self.n) if k not in self.free]
 
     @property
     def axes(self) -> tuple[int, ...]:
@@ -128,21 +99,11 @@ class Section:
         return 4 if Kind.ROOTS.value in self.kinds else 2
 
     @property
-    def kinds(self) -> frozenset[str]:
-        """The kinds of unknowns that there are."""
-        return frozenset(s.kind for s in self.written.statements if isinstance(s, WrittenSolve))
-
-    @property
     def masks(self) -> str:
         """Which joints are free, an expression."""
         last = self.written.statements[-1]
         assert isinstance(last, WrittenProposal)
         return " | ".join(f"{name}.free_joints" for name in last.unknowns)
-
-    def seed(self, seed: Iterable[tuple[int, int]]) -> str:
-        """Write what an unknown is when it is free."""
-        signed = (f" {'+' if sign > 0 else '-'} {self.start.format(k)}" for sign, k in seed)
-        return "".join(signed).removeprefix(" + ").strip()
 
 
 def section(
@@ -152,7 +113,7 @@ def section(
     written: WrittenProgram,
     access: Access,
     fields: Mapping[Symbol, str],
-) -> Section:
+) -> CompiledSection:
     """Gather the inverse kinematics of a robot that has been written in a language.
 
     Parameters
@@ -173,13 +134,12 @@ def section(
         for name, place in written.goal
     ]
     limits = tuple(joint.limits for joint in facts.joints)
-    held = held_joints(facts, program)
-    return Section(
+    return CompiledSection(
         reason="",
         program=written,
         plan=program,
         reads=(*read, *goal),
         limits=limits if any(limits) else (),
-        locked_note=f"; so does {held}, which is locked" if held else "",
+        locked_note=locked_note(facts, program),
         start=access.start,
     )

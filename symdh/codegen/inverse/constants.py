@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from types import MappingProxyType
 
-from symdh.codegen.facts import Facts
-from symdh.codegen.inverse.program import Program
-
 #: What the helpers go by, as literals; mostly the same as in `symdh.kinematics.inverse`.
 NUMBERS = MappingProxyType(
     {
@@ -92,9 +89,3 @@ SENTENCES = MappingProxyType(
 SETTLE = MappingProxyType(
     {"line": "turns", "pair": "turn", "slide": "shift", "square": "shifts", "roots": "angles"}
 )
-
-
-def held_joints(facts: Facts, program: Program) -> str:
-    """Return the names of the locked joints for a sentence; empty where there are none."""
-    held = [joint.name for k, joint in enumerate(facts.joints) if k not in program.free]
-    return " and ".join(held)

@@ -9,7 +9,7 @@ from sympy import Symbol
 from symdh.codegen.facts import Facts
 from symdh.codegen.graph import Op
 from symdh.codegen.inverse.c import ACCESS, OWN_IN_BRANCHES
-from symdh.codegen.inverse.compiled import Section, section
+from symdh.codegen.inverse.compiled import CompiledSection, section
 from symdh.codegen.inverse.constants import NUMBERS, SINGLE_NUMBERS
 from symdh.codegen.inverse.found import LEFT_OUT, Missing
 from symdh.codegen.inverse.lowering import inverse_program
@@ -30,7 +30,7 @@ def cpp_section(
     locked: tuple[Symbol, ...] = (),
     *,
     wanted: bool = True,
-) -> Section:
+) -> CompiledSection:
     """Write the inverse kinematics of a robot in C++; its parameters stay open.
 
     Parameters
@@ -50,7 +50,7 @@ def cpp_section(
     """
     program = inverse_program(robot, None, locked) if wanted else LEFT_OUT
     if isinstance(program, Missing):
-        return Section(program.reason)
+        return CompiledSection(program.reason)
     scope = Scope(_is_taken)
     symbols = scope.take_symbols([*fields, *robot.variables])
     parameters = {symbol: f"p->{name}" for symbol, name in fields.items()}

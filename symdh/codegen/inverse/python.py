@@ -10,51 +10,34 @@ from sympy import Symbol
 from symdh.codegen.calls import PYTHON
 from symdh.codegen.facts import Facts
 from symdh.codegen.inverse.breaking import broken, broken_value
-from symdh.codegen.inverse.constants import NUMBERS, SENTENCES, SETTLE, held_joints
+from symdh.codegen.inverse.constants import NUMBERS, SENTENCES, SETTLE
 from symdh.codegen.inverse.found import LEFT_OUT, Missing
 from symdh.codegen.inverse.lowering import inverse_program
-from symdh.codegen.inverse.program import Program
-from symdh.codegen.inverse.writing import WrittenProgram, WrittenSolve, write_program
+from symdh.codegen.inverse.section import Section, locked_note
+from symdh.codegen.inverse.writing import WrittenProgram, write_program
 from symdh.codegen.names import Scope, words
 from symdh.robot import Robot
 
 #: What the section calls its functions, arguments and modules; names that begin with an underscore
 #: are nobody else's.
 PYTHON_OWN = words("ik ik_free seed limits math Iterator T")
+_START = "_start[{}]"
 
 
 @dataclass(frozen=True)
-class PythonSection:
+class PythonSection(Section):
     """What the template ``python/ik.py.jinja`` gets as ``ik``.
 
     Attributes
     ----------
-    reason : str
-        Why there is no inverse kinematics; the other fields have no meaning then.
-    program : WrittenProgram or None
-    plan : Program or None
     reads : tuple of (place, name)
         What the branches read first.
     passed : str
         The parameters as a dict.
-    locked_note : str
-    kinds : frozenset of str
-        The kinds of unknowns that there are.
     """
 
-    reason: str
-    program: WrittenProgram | None = None
-    plan: Program | None = None
     reads: tuple[tuple[str, str], ...] = ()
     passed: str = ""
-    locked_note: str = ""
-    kinds: frozenset[str] = frozenset()
-
-    @property
-    def locked(self) -> list[int]:
-        """The places of the joint variables that are held."""
-        assert self.plan is not None
-        return [k for k in range(len(self.plan.turning)) if k not in self.plan.free]
 
 
 def python_section(
@@ -84,15 +67,14 @@ def python_section(
     scope = Scope(is_reserved)
     symbols = scope.take_symbols([*robot.parameters, *robot.variables])
     written = write_program(program, PYTHON, symbols, scope)
-    held = held_joints(facts, program)
     return PythonSection(
         reason="",
         program=written,
         plan=program,
         reads=_reads(robot, written),
         passed="{" + ", ".join(f'"{symbols[s]}": {symbols[s]}' for s in robot.parameters) + "}",
-        locked_note=f"; so does {held}, which is locked" if held else "",
-        kinds=frozenset(s.kind for s in written.statements if isinstance(s, WrittenSolve)),
+        locked_note=locked_note(facts, program),
+        start=_START,
     )
 
 
@@ -104,18 +86,11 @@ def python_context() -> dict[str, object]:
         "settle": SETTLE,
         "wrap": broken,
         "wrap_value": broken_value,
-        "seed_of": _seed,
     }
-
-
-def _seed(seed: tuple[tuple[int, int], ...]) -> str:
-    """Write what an unknown is when it is free."""
-    text = "".join(f" {'+' if sign > 0 else '-'} _start[{place}]" for sign, place in seed)
-    return text.removeprefix(" + ").strip()
 
 
 def _reads(robot: Robot, written: WrittenProgram) -> tuple[tuple[str, str], ...]:
     """Return what the branches read that is no argument, and what they call it."""
-    places = {variable: f"_start[{k}]" for k, variable in enumerate(robot.variables)}
+    places = {variable: _START.format(k) for k, variable in enumerate(robot.variables)}
     read = [(places[symbol], name) for symbol, name in written.reads if symbol in places]
     return (*read, *((f"_goal[{place}]", name) for name, place in written.goal))

@@ -9,7 +9,7 @@ from sympy import Symbol
 from symdh.codegen.facts import Facts
 from symdh.codegen.graph import Op
 from symdh.codegen.inverse.breaking import broken
-from symdh.codegen.inverse.compiled import Access, Section, section
+from symdh.codegen.inverse.compiled import Access, CompiledSection, section
 from symdh.codegen.inverse.constants import NUMBERS, SENTENCES, SETTLE
 from symdh.codegen.inverse.found import LEFT_OUT, Missing
 from symdh.codegen.inverse.lowering import inverse_program
@@ -39,7 +39,7 @@ def rust_section(
     locked: tuple[Symbol, ...] = (),
     *,
     wanted: bool = True,
-) -> Section:
+) -> CompiledSection:
     """Write the inverse kinematics of a robot in Rust; its parameters stay open.
 
     Parameters
@@ -57,7 +57,7 @@ def rust_section(
     """
     program = inverse_program(robot, None, locked) if wanted else LEFT_OUT
     if isinstance(program, Missing):
-        return Section(program.reason)
+        return CompiledSection(program.reason)
     scope = Scope(is_reserved)
     symbols = scope.take_symbols([*fields, *robot.variables])
     parameters = {symbol: f"p.{name}" for symbol, name in fields.items()}

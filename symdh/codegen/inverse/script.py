@@ -8,7 +8,6 @@ template lays the rest out.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -17,11 +16,11 @@ from sympy import Symbol
 from symdh.codegen.facts import Facts
 from symdh.codegen.functions import Language
 from symdh.codegen.inverse.breaking import Layout, broken, broken_value
-from symdh.codegen.inverse.constants import NUMBERS, SENTENCES, SETTLE, held_joints
+from symdh.codegen.inverse.constants import NUMBERS, SENTENCES, SETTLE
 from symdh.codegen.inverse.found import LEFT_OUT, Missing
 from symdh.codegen.inverse.lowering import inverse_program
-from symdh.codegen.inverse.program import Program
-from symdh.codegen.inverse.writing import WrittenProgram, WrittenSolve, write_program
+from symdh.codegen.inverse.section import Section, locked_note
+from symdh.codegen.inverse.writing import WrittenProgram, write_program
 from symdh.codegen.listing import Local
 from symdh.codegen.names import Scope
 from symdh.robot import Robot
@@ -53,49 +52,35 @@ class Script:
 
 
 @dataclass(frozen=True)
-class ScriptSection:
+class ScriptSection(Section):
     """What the templates of a script get as ``ik``.
 
     Attributes
     ----------
-    reason : str
-        Why there is no inverse kinematics; the other fields have no meaning then.
-    program : WrittenProgram or None
-    plan : Program or None
     reads : tuple of Local
         What the branches read first, parameters aside.
     parameters : tuple of str
         The parameters that they read.
     limits : tuple of (lower, upper)
         Of each joint variable, infinite where the table gives none.
-    locked_note : str
-    kinds : frozenset of str
-        The kinds of unknowns that there are.
     """
 
-    reason: str
-    program: WrittenProgram | None = None
-    plan: Program | None = None
     reads: tuple[Local, ...] = ()
     parameters: tuple[str, ...] = ()
     limits: tuple[tuple[str, str], ...] = ()
-    locked_note: str = ""
-    kinds: frozenset[str] = frozenset()
 
     @property
     def about(self) -> str:
         """What is compared, for the documentation."""
-        assert self.plan is not None
         return (
-            f"What is compared: {self.plan.description}. Each answer has passed forward "
+            f"What is compared: {self.given.description}. Each answer has passed forward "
             "kinematics: it misses the pose by less than 1e-9 of the arm's reach."
         )
 
     @property
     def about_pose(self) -> str:
         """What is asked for."""
-        assert self.plan is not None
-        rough = "; its rotation may be off by 1e-4" if self.plan.with_orientation else ""
+        rough = "; its rotation may be off by 1e-4" if self.given.with_orientation else ""
         return f"pose of the end of the arm in its base frame, 4 x 4{rough}"
 
     @property
@@ -109,8 +94,7 @@ class ScriptSection:
     @property
     def about_answers(self) -> str:
         """How many there are, and where their angles lie."""
-        assert self.plan is not None
-        most = self.plan.most_solutions
+        most = self.given.most_solutions
         return (
             f"at most {most}, none where the pose is out of reach or holds no numbers. Angles from "
             "-pi to pi, moved by full turns into the limits of the table where that is possible."
@@ -147,7 +131,6 @@ def script_section(
     symbols = scope.take_symbols([*robot.parameters, *robot.variables])
     fields = {symbol: script.parameter.format(symbols[symbol]) for symbol in robot.parameters}
     written = write_program(program, language.calls, symbols, scope, fields, language.printer)
-    held = held_joints(facts, program)
     return ScriptSection(
         reason="",
         program=written,
@@ -157,8 +140,9 @@ def script_section(
         limits=tuple(
             joint.limits or (f"-{script.infinity}", script.infinity) for joint in facts.joints
         ),
-        locked_note=f"; so does {held}, which is locked" if held else "",
-        kinds=frozenset(s.kind for s in written.statements if isinstance(s, WrittenSolve)),
+        locked_note=locked_note(facts, program),
+        start=script.start,
+        first=language.first,
     )
 
 
@@ -172,7 +156,6 @@ def script_context(language: Language, script: Script) -> dict[str, object]:
         "wrap": partial(broken, layout=script.layout),
         "wrap_value": partial(broken_value, layout=script.layout),
         "filled": filled,
-        "seed_of": _seed_writer(language, script),
     }
 
 
@@ -186,19 +169,6 @@ def filled(text: str, begin: str, behind: str | None = None) -> str:
         break_long_words=False,
         break_on_hyphens=False,
     )
-
-
-def _seed_writer(
-    language: Language, script: Script
-) -> Callable[[tuple[tuple[int, int], ...]], str]:
-    """Return what writes the value that an unknown has when it is free."""
-
-    def write(seed: tuple[tuple[int, int], ...]) -> str:
-        terms = [(sign, script.start.format(place + language.first)) for sign, place in seed]
-        text = "".join(f" {'+' if sign > 0 else '-'} {read}" for sign, read in terms)
-        return text.removeprefix(" + ").strip()
-
-    return write
 
 
 def _reads(

@@ -13,10 +13,9 @@ from dataclasses import dataclass
 from sympy import Symbol
 
 from symdh.codegen.facts import Facts, facts_of
-from symdh.codegen.inverse.constants import held_joints
 from symdh.codegen.inverse.found import LEFT_OUT, Missing
 from symdh.codegen.inverse.lowering import inverse_program
-from symdh.codegen.inverse.program import Program
+from symdh.codegen.inverse.section import Section, locked_note
 from symdh.codegen.names import PYTHON_KEYWORDS, Scope, comment_text, file_stem
 from symdh.codegen.targets import GeneratedFile, c
 from symdh.codegen.verification import CheckProgram, Poses
@@ -45,13 +44,10 @@ class _Function:
 
 
 @dataclass(frozen=True, slots=True)
-class _Inverse:
-    """What is said of the inverse kinematics; without a plan, the reason why there is none."""
+class _Inverse(Section):
+    """The inverse kinematics of the C that is wrapped."""
 
-    reason: str
-    plan: Program | None = None
     limits: bool = False
-    locked_note: str = ""
 
 
 def generate(
@@ -95,12 +91,11 @@ def _inverse(robot: Robot, facts: Facts, lock: tuple[Symbol, ...], *, wanted: bo
     program = inverse_program(robot, None, lock) if wanted else LEFT_OUT
     if isinstance(program, Missing):
         return _Inverse(program.reason)
-    held = held_joints(facts, program)
     return _Inverse(
         reason="",
         plan=program,
         limits=any(joint.limits for joint in facts.joints),
-        locked_note=f"; so does {held}, which is locked" if held else "",
+        locked_note=locked_note(facts, program),
     )
 
 
