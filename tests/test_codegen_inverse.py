@@ -7,7 +7,6 @@ import math
 import os
 import re
 import subprocess
-import tempfile
 import time
 from pathlib import Path
 from typing import Any
@@ -28,7 +27,7 @@ from symdh.codegen.inverse.breaking import broken, broken_value
 from symdh.codegen.inverse.lowering import inverse_program
 from symdh.codegen.inverse.program import Compute, Program, Propose, Solve
 from symdh.kinematics.inverse.inverse import inverse_kinematics
-from tools import require_tool
+from tools import new_folder, require_tool
 
 DATA = Path(__file__).parent / "data"
 TABLES = sorted((DATA / "tables").glob("*.yaml"))
@@ -60,7 +59,7 @@ each_closed = pytest.mark.parametrize("table", CLOSED, ids=lambda path: path.ste
 
 @functools.cache
 def loaded(table: Path) -> Loaded:
-    return load(table, Path(tempfile.mkdtemp(prefix=table.stem)))
+    return load(table, new_folder(table.stem))
 
 
 def table_named(name: str) -> Path:

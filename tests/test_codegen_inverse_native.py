@@ -14,7 +14,6 @@ import math
 import os
 import re
 import subprocess
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -32,7 +31,7 @@ import symdh
 from symdh.codegen import generate
 from symdh.codegen.targets import rust
 from symdh.robot import Robot
-from tools import find_tool, require_tool
+from tools import find_tool, new_folder, require_tool
 
 FEW = (
     *("puma560", "ur5", "pieper_generic", "stanford_textbook", "scara_rrpr", "minimover_5r"),
@@ -102,7 +101,7 @@ def _locks(table: Path) -> tuple[Symbol, ...]:
 
 @functools.cache
 def case(table: Path) -> Case:
-    folder = Path(tempfile.mkdtemp(prefix=table.stem))
+    folder = new_folder(table.stem)
     arm = load(table, folder, [s.name for s in _locks(table)])
     own = arm.arm.seeded_poses(POSES, seed=71)
     hard = arm.arm.seeded_poses(6, seed=72)

@@ -11,7 +11,6 @@ import functools
 import math
 import os
 import re
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -29,7 +28,7 @@ from sympy import Symbol
 import symdh
 from symdh.codegen import GeneratedFile, generate
 from symdh.robot import Robot
-from tools import find_tool, require_tool
+from tools import find_tool, new_folder, require_tool
 
 DATA = Path(__file__).parent / "data"
 TABLES = {path.stem: path for path in sorted((DATA / "tables").glob("*.yaml"))}
@@ -91,7 +90,7 @@ in_each_target = pytest.mark.parametrize("target", TARGETS)
 
 @functools.cache
 def loaded(name: str) -> Loaded:
-    return load(TABLES[name], Path(tempfile.mkdtemp(prefix=name)))
+    return load(TABLES[name], new_folder(name))
 
 
 @functools.cache
@@ -102,7 +101,7 @@ def written(
     robot = symdh.load(TABLES[table]) if table in TABLES else symdh.loads(table)
     options: dict[str, object] = {"lock": tuple(Symbol(name, real=True) for name in locked)}
     files = generate(robot, language, **(options if locked else {}))
-    folder = Path(tempfile.mkdtemp(prefix=robot.name))
+    folder = new_folder(robot.name)
     write(files, folder)
     return folder, robot, files
 
@@ -158,7 +157,7 @@ def test_the_joint_values_are_found_again_and_nothing_false(name: str, language:
 @in_each_language
 @pytest.mark.parametrize(("name", "joint"), [("kuka_iiwa7", "theta3"), ("franka_panda", "theta7")])
 def test_a_locked_joint_keeps_the_value_of_the_seed(name: str, joint: str, language: str) -> None:
-    arm = load(TABLES[name], Path(tempfile.mkdtemp(prefix=name)), [joint])
+    arm = load(TABLES[name], new_folder(name), [joint])
     place = int(joint[-1]) - 1
     q = arm.arm.seeded_poses(8, seed=12)
     goals = arm.pose(q)
@@ -464,7 +463,7 @@ def test_typescript_accepts_the_modules_themselves(name: str) -> None:
     """What its comments declare is what the code does, and ECMAScript 2016 is enough for it."""
     compiler = find_tool("tsc")
     _, _, (module, _) = written("javascript", name)
-    bare = Path(tempfile.mkdtemp(prefix=name))
+    bare = new_folder(name)
     (bare / module.name).write_text(module.text, encoding="utf-8")
     options = ["--noEmit", "--checkJs", "--strict", "false", "--target", "es2016"]
     run([compiler, *options, "--lib", "es2016", "--module", "es2015", module.name], bare)

@@ -1,9 +1,12 @@
-"""Programs that tests need beyond Python."""
+"""Programs and folders that tests need."""
 
 from __future__ import annotations
 
+import atexit
+import functools
 import os
 import shutil
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -32,3 +35,15 @@ def has_instructions(name: str) -> bool:
     """Say whether this machine runs an extension of its instruction set, as Linux calls it."""
     cpu = Path("/proc/cpuinfo")
     return cpu.exists() and name in cpu.read_text().split()
+
+
+@functools.cache
+def _scratch() -> Path:
+    folder = Path(tempfile.mkdtemp(prefix="symdh-tests-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
+def new_folder(name: str) -> Path:
+    """Return a folder for what several tests share; it goes when the process ends."""
+    return Path(tempfile.mkdtemp(prefix=name, dir=_scratch()))
