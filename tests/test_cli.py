@@ -249,7 +249,10 @@ def test_code_that_is_wrong_costs_status_1(
 
     monkeypatch.setattr(verification, "verify", verify)
     assert run(["code", str(arm), "--target", "python", "--verify"]) == 1
-    assert capsys.readouterr().out.endswith("WRONG\n")
+    forward, inverse = capsys.readouterr().out.splitlines()
+    assert forward.startswith("python: largest error")
+    assert forward.endswith("WRONG")
+    assert inverse.endswith("right")
 
 
 # -- derive ----------------------------------------------------------------------------------------

@@ -397,7 +397,8 @@ def test_python_broadcasts_over_leading_axes(tmp_path: Path) -> None:
     T, together = module.fk_jacobian(q)
     assert (J.shape, J.dtype) == ((2, 3, 6, 4), np.float64)
     assert (T.shape, together.shape) == ((2, 3, 4, 4), (2, 3, 6, 4))
-    assert (module.jacobian(q[1, 2]) == J[1, 2]).all()
+    # One pose takes its sines from math, many take them from half angles.
+    assert np.abs(module.jacobian(q[1, 2]) - J[1, 2]).max() <= 2e-15
     assert module.jacobian(np.zeros((0, 4))).shape == (0, 6, 4)
 
 

@@ -156,9 +156,9 @@ LIMITS: dict[str, tuple[Reader, str, str, str]] = {
     ),
     "functions": (
         table,
-        rows(86, alpha="acos(1/3)"),
-        rows(87, alpha="acos(1/3)"),
-        "over the limit of 8000 signs, of which a function of numbers counts 80",
+        rows(64, alpha="acos(1/3)"),
+        rows(65, alpha="acos(1/3)"),
+        "over the limit of 6000 signs, of which a function of numbers counts 80",
     ),
     "aliases": (table, f"{HEAD}{ONE}", f"{HEAD}{ONE}notes: [&a 1, *a]", "anchor &a is not allowed"),
     "rows of CSV": (csv, lines(200), lines(501), "more than 500 rows"),

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from symdh.table.lexer import ExpressionError
 
-MAX_EFFORT = 8_000
+MAX_EFFORT = 6_000
 OF_NUMBERS = 80
 """The exact value of a function or a root of numbers, cos(pi/7), costs as much as many signs."""
 
