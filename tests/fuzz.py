@@ -45,6 +45,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("target", choices=sorted(TARGETS))
     parser.add_argument("--seconds", type=int, default=60)
+    parser.add_argument("--seed", type=int, default=0, help="of what is tried; 0: any")
     parser.add_argument("--keep", type=Path, metavar="FOLDER", help="collect what is found there")
     options = parser.parse_args()
     read, seeds = TARGETS[options.target]
@@ -67,6 +68,7 @@ def main() -> None:
             f"-rss_limit_mb={used + 300}",
             "-timeout=10",
             "-max_len=4096",
+            f"-seed={options.seed}",
             "-print_final_stats=1",
             str(found),
             folder,
