@@ -152,7 +152,6 @@ def _everything(robot: Robot, document: Document, wishes: Wishes) -> dict[str, b
     if wishes.homework.sheet is not None:
         return contents
     for target in (target for target in TARGETS if target.in_derive):
-        left_out = {} if wishes.ik or "ik" not in target.options else {"ik": False}
-        for file in generate(robot, target.name, **left_out):
+        for file in generate(robot, target.name, ik=wishes.ik):
             contents[file.name] = file.text.encode()
     return contents

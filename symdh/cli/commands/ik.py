@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from sympy import Expr, Symbol
 
+    from symdh.derivation.blocks import Document
     from symdh.derivation.inverse import Solved
     from symdh.kinematics.inverse.inverse import InverseKinematics
 
@@ -228,16 +229,22 @@ def _content(
         from symdh.render.page.page import render_page
 
         return render_page(document, found.robot).encode()
+    if form == "pdf":
+        with patience.telling("typesetting"):
+            return _pdf(document, paper)
     from symdh.render.latex import render_latex
+
+    return render_latex(document, paper=paper).encode()
+
+
+def _pdf(document: Document, paper: str) -> bytes:
+    """Typeset the handout with TeX, without it with typst."""
     from symdh.render.pdf import TYPST, compile_pdf, compile_typst, find_engine
 
-    if form == "pdf" and find_engine() == TYPST:
+    if find_engine() == TYPST:
         from symdh.render.typst import render_typst
 
-        with patience.telling("typesetting"):
-            return compile_typst(render_typst(document, paper))
-    tex = render_latex(document, paper=paper)
-    if form == "latex":
-        return tex.encode()
-    with patience.telling("typesetting"):
-        return compile_pdf(tex)
+        return compile_typst(render_typst(document, paper))
+    from symdh.render.latex import render_latex
+
+    return compile_pdf(render_latex(document, paper=paper))
