@@ -23,7 +23,7 @@ from symdh.codegen.inverse.judging import InverseVerification, judged
 from symdh.codegen.inverse.lowering import inverse_program
 from symdh.codegen.inverse.program import Program
 from symdh.codegen.precision import DOUBLE, FLOAT, single
-from symdh.codegen.targets import TARGETS, GeneratedFile
+from symdh.codegen.targets import GeneratedFile
 from symdh.errors import LimitError, OutputError, UnsupportedError
 from symdh.robot import JointType, Robot
 
@@ -43,7 +43,9 @@ class Poses:
     parameters : mapping of Symbol to float
         A number for each parameter that the table leaves open.
     inverse : Program or None
-        The inverse kinematics that the code has, if it has any.
+        The inverse kinematics that the code has, if it has any. The program then prints behind
+        each pose a line of the word ``ik`` and the joint values of all answers to it in a row,
+        those that made the pose being the seed.
     """
 
     joints: tuple[tuple[float, ...], ...]
@@ -66,15 +68,10 @@ class CheckProgram:
     commands : tuple of tuple of str
         Run one after the other. The last prints a line for each pose: the 16 entries, row by row,
         between spaces.
-    answers : bool
-        Whether each of these lines is followed by one with the word ``ik`` and the joint values of
-        all answers to that pose in a row, those that made it being the seed. A target that has
-        inverse kinematics does so where `Poses.inverse` is given.
     """
 
     files: tuple[GeneratedFile, ...]
     commands: tuple[tuple[str, ...], ...]
-    answers: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +138,7 @@ def verify(
     module = import_module(f"symdh.codegen.targets.{target.replace('-', '_')}")
     if not hasattr(module, "check_program"):
         raise UnsupportedError(f"symdh cannot run {target} code to verify it")
-    plan = _inverse(robot, target, lock) if ik else None
+    plan = _inverse(robot, lock) if ik else None
     poses = replace(random_poses(robot, count, is_single=is_single), inverse=plan)
     program: CheckProgram = module.check_program(robot, files, poses)
     found, answers = _run(program, files, poses)
@@ -154,15 +151,13 @@ def verify(
     # max() alone would pass over a NaN.
     worst = math.nan if any(map(math.isnan, errors)) else max(errors)
     inverse = None
-    if plan is not None and program.answers:
+    if plan is not None:
         inverse = judged(plan, exact, poses.joints, answers, is_single=is_single)
     return Verification(len(errors), worst, 4.0 + 2.0 * robot.n, inverse)
 
 
-def _inverse(robot: Robot, target: str, lock: tuple[Symbol, ...]) -> Program | None:
-    """Return the inverse kinematics that the code of a target has."""
-    if not any(one.name == target and "ik" in one.options for one in TARGETS):
-        return None
+def _inverse(robot: Robot, lock: tuple[Symbol, ...]) -> Program | None:
+    """Return the inverse kinematics that the code has."""
     plan = inverse_program(robot, None, lock)
     return plan if isinstance(plan, Program) else None
 
@@ -218,7 +213,7 @@ def _run(
     count, n = len(poses.joints), len(poses.joints[0])
     if len(rows) != count or any(len(row) != 16 for row in rows):
         raise OutputError("cannot verify: the code did not print its poses")
-    if len(answers) != count * program.answers or any(len(row) % n for row in answers):
+    if len(answers) != count * (poses.inverse is not None) or any(len(row) % n for row in answers):
         raise OutputError("cannot verify: the code did not print its answers")
     return rows, answers
 
