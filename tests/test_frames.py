@@ -501,6 +501,12 @@ def test_what_is_wrong_with_a_file_of_axes(text: str, where: str, says: str) -> 
     assert says in found[where]
 
 
+def test_a_tool_that_is_no_mapping_is_one_error() -> None:
+    with pytest.raises(TableError) as caught:
+        read_mechanism(from_text(ONE + "tool: 5\n", "axes.yaml"))
+    assert len(caught.value.diagnostics) == 1
+
+
 def test_joints_between_given_frames_need_not_be_told() -> None:
     plain = mechanism_from(GIVEN)
     assert [(axis.type, axis.variable) for axis in plain.axes] == [

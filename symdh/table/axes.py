@@ -306,7 +306,7 @@ class _Reader:
         keys = self._mapping(node, TOOL_KEYS, "tool")
         for key, value in keys.items():
             self.places["tool", key] = value.place()
-        if "point" not in keys:
+        if isinstance(node, MappingNode) and "point" not in keys:
             self.report.error(node.place(), "missing key point in tool")
         point = self._vector(keys.get("point"), LENGTH, "point")
         found = {
