@@ -325,6 +325,7 @@ def test_a_folder_where_a_file_is_wanted(arm: Path, tmp_path: Path, run_symdh: R
         assert [path.name for path in (tmp_path / "out").iterdir()] == ["arm.c"]
 
 
+@pytest.mark.undisturbed
 @action("OU06")
 def test_a_file_that_may_not_grow(arm: Path, tmp_path: Path, run_symdh: Runner) -> None:
     assert run_symdh("derive", arm, "-o", "out").returncode == 0

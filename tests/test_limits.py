@@ -256,6 +256,7 @@ COSTLY: dict[str, tuple[Reader, str]] = {
 }
 
 
+@pytest.mark.undisturbed
 @pytest.mark.parametrize("name", COSTLY)
 def test_what_is_under_the_limits_takes_less_than_a_second(name: str) -> None:
     """Of CPU, the least of three runs: other work on the machine only adds to it."""
