@@ -689,3 +689,40 @@ def test_what_nobody_expects_is_told_without_a_traceback(
         monkeypatch.setenv("SYMDH_DEBUG", "1")
         assert run(["show", str(arm)]) == 70
         assert "Traceback" in capsys.readouterr().err
+
+
+# ------------------------------------------------------------------------ a table is never replaced
+
+
+@pytest.mark.parametrize("command", [("latex",), ("convert", "--to", "modified"), ("html",)])
+@pytest.mark.parametrize("spelling", ["arm.yaml", "./arm.yaml", "link/arm.yaml"])
+def test_what_a_command_reads_is_not_replaced(
+    command: tuple[str, ...],
+    spelling: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Not even a table that symdh wrote, and which a user may have gone on with."""
+    monkeypatch.chdir(tmp_path)
+    Path("link").symlink_to(tmp_path)
+    table = f"# written by symdh\n{ARM}"
+    Path("arm.yaml").write_text(table)
+    assert run([*command, "arm.yaml", "-o", spelling]) == 3
+    assert f"refuses to replace {Path(spelling)}: it is read here" in capsys.readouterr().err
+    assert Path("arm.yaml").read_text() == table
+
+
+def test_a_preamble_is_not_replaced_either(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("arm.yaml").write_text(ARM)
+    Path("own.tex").write_text("% like those written by symdh\n")
+    assert run(["latex", "arm.yaml", "--preamble", "own.tex", "-o", "own.tex"]) == 3
+    assert Path("own.tex").read_text() == "% like those written by symdh\n"
+
+
+def test_force_replaces_what_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("arm.yaml").write_text(ARM)
+    assert run(["convert", "arm.yaml", "--to", "modified", "-o", "arm.yaml", "--force"]) == 0
+    assert "convention: modified" in Path("arm.yaml").read_text()

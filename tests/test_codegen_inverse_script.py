@@ -84,7 +84,7 @@ joints:
 """
 
 in_each_language = pytest.mark.parametrize("language", LANGUAGES)
-TARGETS = ("javascript", "matlab", "julia")
+TARGETS = tuple(LANGUAGES)
 in_each_target = pytest.mark.parametrize("target", TARGETS)
 
 

@@ -420,7 +420,7 @@ def test_the_list_names_each_template_on_a_line(run_symdh: Runner) -> None:
 @pytest.mark.parametrize("name", list(shipped()))
 def test_the_head_of_a_template_tells_its_variables(name: str) -> None:
     template = shipped()[name]
-    assert len(template.summary) > 20
+    assert len(template.summary) > 20, "the first line of the head says what the template is"
     if not template.is_filled_in:
         return
     tree = environment_for(name, None).parse(template.text)

@@ -24,7 +24,7 @@ from symdh.codegen.inverse.lowering import inverse_program
 from symdh.codegen.inverse.program import Program
 from symdh.codegen.precision import DOUBLE, FLOAT, single
 from symdh.codegen.targets import GeneratedFile
-from symdh.errors import LimitError, OutputError, UnsupportedError
+from symdh.errors import LimitError, OutputError
 from symdh.robot import JointType, Robot
 
 _TIME_LIMIT = 120.0
@@ -128,16 +128,12 @@ def verify(
 
     Raises
     ------
-    UnsupportedError
-        When symdh has no way to run this target.
     OutputError
         When the compiler or interpreter is not installed, or refuses the code.
     LimitError
         When it does not come to an end.
     """
     module = import_module(f"symdh.codegen.targets.{target.replace('-', '_')}")
-    if not hasattr(module, "check_program"):
-        raise UnsupportedError(f"symdh cannot run {target} code to verify it")
     plan = _inverse(robot, lock) if ik else None
     poses = replace(random_poses(robot, count, is_single=is_single), inverse=plan)
     program: CheckProgram = module.check_program(robot, files, poses)

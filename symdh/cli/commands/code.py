@@ -119,7 +119,7 @@ def code(
     written: dict[str, tuple[GeneratedFile, ...]] = {}
     for target in TARGETS:
         if target.name in targets:
-            given = {name: value for name, value in chosen.items() if name in target.options}
+            given = {name: value for name, value in chosen.items() if target.takes(name)}
             place = Path(folder or target.folder.format(file_stem(robot.name)))
             generated = folders.setdefault(place, {})
             written[target.name] = generate(robot, target.name, **given)
@@ -164,7 +164,7 @@ def _verdict(is_right: bool) -> str:
 
 
 def _refuse_if_of_no_use(option: str, targets: tuple[str, ...]) -> None:
-    able = [target.name for target in TARGETS if option in target.options]
+    able = [target.name for target in TARGETS if target.takes(option)]
     if not set(able) & set(targets):
         spelt = "no-ik" if option == "ik" else option
         raise click.UsageError(f"--{spelt} is for --target {' or '.join(able)}")
