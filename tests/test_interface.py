@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from math import pi
 
 import pytest
@@ -100,6 +101,16 @@ def test_locked_joints_may_be_named_in_any_spelling() -> None:
     assert found.locked == (Symbol("theta2", real=True),)
     with pytest.raises(symdh.UnsupportedError, match="theta9 is no joint variable of arm"):
         symdh.inverse_kinematics(arm, lock=["theta9"])
+
+
+def test_words_in_formulas_are_for_mathjax(
+    arm: symdh.Robot, inverse: symdh.InverseKinematics
+) -> None:
+    """A notebook's MathJax shows commands inside of text as they are written."""
+    for result in (symdh.derive(arm), inverse):
+        words = re.findall(r"\\text\{([^}]*)\}", result._repr_html_())
+        assert words
+        assert not any("\\" in text for text in words)
 
 
 def test_results_show_themselves(arm: symdh.Robot, inverse: symdh.InverseKinematics) -> None:

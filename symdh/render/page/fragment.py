@@ -12,14 +12,23 @@ from symdh.derivation import table
 from symdh.derivation.blocks import Chapter, Document
 from symdh.derivation.derive import subtitle
 from symdh.derivation.style import Style
+from symdh.render.latex_math import LatexWriter
 from symdh.render.page.page import page_layout
 from symdh.robot import Robot
 from symdh.templating import render
 
 
+class _ForMathJax(LatexWriter):
+    """Spells text in formulas as MathJax takes it: it shows a command there as it is written."""
+
+    def remark(self, text: str) -> str:
+        """Return a short text beside a formula."""
+        return rf"\text{{{text}}}"
+
+
 def document_fragment(document: Document) -> str:
     """Write a document as one ``div`` with all its chapters."""
-    layout = page_layout()
+    layout = page_layout(_ForMathJax())
     return render(
         "html/fragment.html.jinja",
         title=document.title,
@@ -39,7 +48,7 @@ def chapter_fragment(chapter: Chapter) -> str:
 
 def table_fragment(robot: Robot) -> str:
     """Write the table of a robot as one ``div``, with its title and convention."""
-    layout = page_layout()
+    layout = page_layout(_ForMathJax())
     return render(
         "html/fragment.html.jinja",
         title=robot.title or robot.name,

@@ -8,6 +8,7 @@ from symdh._version import __version__
 from symdh.derivation.blocks import Document
 from symdh.kinematics.frame import first_frame, last_frame
 from symdh.render.drawing.svg import render_svg
+from symdh.render.latex_math import LatexWriter
 from symdh.render.layout import Layout
 from symdh.render.page.arm import arm_script
 from symdh.render.page.katex import katex_script, katex_style
@@ -45,9 +46,9 @@ def render_page(document: Document, robot: Robot) -> str:
     )
 
 
-def page_layout() -> Layout:
-    """Return the layout of whatever is HTML."""
-    return Layout(lambda text: str(escape(text)), _inline_formula, picture=render_svg)
+def page_layout(math: LatexWriter | None = None) -> Layout:
+    """Return the layout of whatever is HTML; `math` spells its formulas."""
+    return Layout(lambda text: str(escape(text)), _inline_formula, math, picture=render_svg)
 
 
 def _inline_formula(formula: str) -> str:
