@@ -1,1 +1,1 @@
-"""Documents and results as LaTeX, terminal text and JSON. `formats` lists the document formats."""
+"""Documents and results as LaTeX, Typst, HTML, text and JSON; `formats` lists the documents' formats."""

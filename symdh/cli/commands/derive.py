@@ -67,8 +67,8 @@ def derive(
 ) -> None:
     """Derive tables: result, handout and code.
 
-    Prints the pose of the whole chain and writes the handout (.tex) and the numeric functions
-    (.py, .h and .c) into a folder.
+    Prints the pose of the whole chain and writes the handout (.tex, .html) and the numeric
+    functions (.py, .h and .c) into a folder.
 
     With --sheet, only the documents are written, NAME_problem or NAME_solution.
 
