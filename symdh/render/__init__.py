@@ -1,1 +1,1 @@
-"""Documents and results as LaTeX, Typst, HTML, text and JSON; `formats` lists the documents' formats."""
+"""Documents and results in LaTeX, Typst, HTML, text, JSON. `formats` lists the document formats."""

@@ -1,8 +1,8 @@
 """Blocks -> items that a template lays out, decided by the widths of their formulas.
 
-Paper (LaTeX, Typst) and web page share this: all print in Computer Modern, so what fits is the same. They differ
-in how formulas are spelt (the page has LaTeX too, for KaTeX), how running text is escaped and how
-a formula stands in it.
+Paper (LaTeX, Typst) and web page share this: all print in Computer Modern, so what fits is the
+same. They differ in how formulas are spelt (the page has LaTeX too, for KaTeX), how running text is
+escaped and how a formula stands in it.
 """
 
 from __future__ import annotations
