@@ -37,6 +37,7 @@ _C_MACROS = words(
 _C_MACRO_FAMILIES = re.compile(
     r"E[A-Z0-9]\w*|(M|FP|DBL|FLT|LDBL|DECIMAL|MATH|SIG|LC|SEEK|ATOMIC)_\w*"
     r"|(U?INT\w*|S?CHAR|UCHAR|U?SHRT|U?LONG|U?LLONG|SIZE|PTRDIFF|WCHAR|WINT)_(MIN|MAX|C)"
+    r"|(METH|PY|NPY)_\w*|Py[A-Z_]\w*"  # Python.h and NumPy stand before the header in an extension
 )
 
 
