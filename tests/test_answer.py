@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+import re
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -810,6 +811,23 @@ def test_a_blank_answer_file_reads_back_all_blank(name: str) -> None:
     sheet = judge_text(robot, blank_answers(robot))
     assert sheet.total >= 16 * (robot.n + 1)
     assert {each.verdict.name for claim in sheet.claims for each in claim.entries} == {"BLANK"}
+
+
+@pytest.mark.parametrize(
+    ("rows", "more", "name"),
+    [
+        (2, "", "T02"),
+        (9, "", "T09"),
+        (10, "", "pose"),  # T010 would read two ways
+        (2, "base: Tz(b)\n", "pose"),  # from base to 2, which is no T02
+        (2, "tool: Tz(e)\n", "pose"),
+    ],
+)
+def test_a_blank_answer_file_asks_for_the_whole_chain(rows: int, more: str, name: str) -> None:
+    joints = "".join(f"  - {{theta: t{k}, d: 0, a: a{k}, alpha: 0}}\n" for k in range(rows))
+    robot = loads_table(f"convention: standard\n{more}joints:\n{joints}", "arm.yaml").robot
+    asked = [line[:-1] for line in blank_answers(robot).splitlines() if re.match(r"\w+:$", line)]
+    assert asked == [*(f"A{k + 1}" for k in range(rows)), name]
 
 
 def test_blank_writes_a_file_and_keeps_one_that_is_there(sheets: Path, run_symdh: Runner) -> None:

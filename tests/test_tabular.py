@@ -160,6 +160,8 @@ def test_without_an_ending_the_text_tells_the_form(text: str, joints: int) -> No
         ("a_x", None, "", None),
         ("d [furlong]", "d", "furlong", None),
         ("x" * 5000, None, "", None),
+        (f"link{' ' * 50}length", "a", "", None),  # sixty characters are the most
+        (f"link{' ' * 51}length", None, "", None),
     ],
 )
 def test_headers(header: str, column: str | None, unit: str, convention: str | None) -> None:
