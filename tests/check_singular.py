@@ -72,7 +72,7 @@ def implementations(table: Path, folder: Path) -> tuple[Loaded, dict[str, Invers
 
 def sets_of(table: Path, arm: Loaded, count: int) -> Iterator[tuple[str, np.ndarray]]:
     """Goals by the kind of the set; those out of reach last."""
-    for kind, q in hard_poses(table, count, thorough=True).items():
+    for kind, q in hard_poses(table, count, arm.values, thorough=True).items():
         yield kind, arm.pose(q)
     if arm.turns.all() and arm.axes:
         goals = arm.pose(held(table, arm_of(table).seeded_poses(count, seed=3)))
@@ -104,6 +104,9 @@ def main() -> int:
     parser.add_argument("--poses", type=int, default=100, help="poses a set")
     parser.add_argument("-j", type=int, default=1, help="tables at a time")
     options = parser.parse_args()
+    for name in {*options.names} - {table.stem for table in CLOSED}:
+        if not Path(name).is_file():
+            parser.error(f"{name} is no file, and no table with a closed form")
     tables = [t for t in CLOSED if not options.names or t.stem in options.names]
     tables += [Path(name) for name in options.names if name.endswith(".yaml")]
     asked = [(table, options.poses) for table in tables]

@@ -6,7 +6,9 @@ import functools
 import math
 import time
 from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -59,9 +61,16 @@ def arm_of(table: Path) -> Arm:
     return read_arm_file(table)
 
 
-def pose_of(arm: Arm, q: np.ndarray, first: str | int = "base", last: str | int = "tool") -> Any:
-    """The oracle's poses of joint values (..., n)."""
+def pose_of(
+    arm: Arm,
+    q: np.ndarray,
+    first: str | int = "base",
+    last: str | int = "tool",
+    values: Mapping[str, float] = MappingProxyType({}),
+) -> Any:
+    """The oracle's poses of joint values (..., n), with values of open parameters."""
     named = {name: q[..., k] for k, (name, _) in enumerate(arm.variables)}
+    named |= {name: np.full(q.shape[:-1], x) for name, x in values.items()}
     return np.asarray(arm.pose(named, first, last, arithmetic=FLOATS), dtype=float)
 
 
@@ -100,10 +109,17 @@ def missed_by(arm: Arm, found: InverseKinematics, answers: Any, goal: np.ndarray
 # ---------------------------------------------------------------- poses that are hard
 
 
-def hard_poses(table: Path, count: int, *, thorough: bool = False) -> Mapping[str, np.ndarray]:
+def hard_poses(
+    table: Path,
+    count: int,
+    values: Mapping[str, float] = MappingProxyType({}),
+    *,
+    thorough: bool = False,
+) -> Mapping[str, np.ndarray]:
     """Joint values at which equations degenerate, `count` of each kind that the arm has.
 
-    Thorough: every joint at zero and near it, and not the third and the fifth alone.
+    Thorough: every joint at zero and near it, and not the third and the fifth alone. Parameters
+    that are open in the table are among `values`.
     """
     arm = arm_of(table)
     rng = np.random.default_rng(9)
@@ -118,16 +134,23 @@ def hard_poses(table: Path, count: int, *, thorough: bool = False) -> Mapping[st
                 q[:, joint] = small
                 sets[f"joint {joint + 1} at {small:g}"] = q
     if n >= 5 and turns[2] and arm.n == n:
-        sets["straight"] = _farthest(arm, arm.seeded_poses(count, seed=31), 2, (1, 4))
-        sets["folded"] = _farthest(arm, arm.seeded_poses(count, seed=32), 2, (1, 4), -1)
+        far = partial(_farthest, arm, joint=2, frames=(1, 4), values=values)
+        sets["straight"] = far(arm.seeded_poses(count, seed=31))
+        sets["folded"] = far(arm.seeded_poses(count, seed=32), sign=-1)
     elif 2 <= n < 5 and turns[n - 1] and turns[1] and arm.n == n:
         # The whole arm's boundary: the last joint turned until the hand is far from the base.
-        sets["boundary"] = _farthest(arm, arm.seeded_poses(count, seed=31), n - 1, ("base", "tool"))
+        q = arm.seeded_poses(count, seed=31)
+        sets["boundary"] = _farthest(arm, q, n - 1, ("base", "tool"), values)
     return {name: held(table, q) for name, q in sets.items()}
 
 
 def _farthest(
-    arm: Arm, q: np.ndarray, joint: int, frames: tuple[str | int, str | int], sign: int = 1
+    arm: Arm,
+    q: np.ndarray,
+    joint: int,
+    frames: tuple[str | int, str | int],
+    values: Mapping[str, float],
+    sign: int = 1,
 ) -> np.ndarray:
     """Turn a joint until two frames are as far apart as can be, or as near with -1.
 
@@ -137,7 +160,7 @@ def _farthest(
 
     def far(angle: np.ndarray) -> np.ndarray:
         q[:, joint] = angle
-        return np.asarray(sign * (pose_of(arm, q, *frames)[:, :3, 3] ** 2).sum(axis=-1))
+        return np.asarray(sign * (pose_of(arm, q, *frames, values)[:, :3, 3] ** 2).sum(axis=-1))
 
     grid = np.linspace(-np.pi, np.pi, 73)
     best = grid[np.argmax([far(np.full(len(q), angle)) for angle in grid], axis=0)]
