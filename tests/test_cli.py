@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import importlib
 import io
 import json
 import math
@@ -21,7 +22,7 @@ from pathlib import Path
 import pytest
 
 from symdh.cli import console, files, patience
-from symdh.cli.main import run
+from symdh.cli.main import main, run
 from symdh.cli.output import WrittenFile
 from symdh.cli.program import COMMANDS, program
 from symdh.codegen import TARGETS, verification
@@ -726,3 +727,35 @@ def test_force_replaces_what_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyP
     Path("arm.yaml").write_text(ARM)
     assert run(["convert", "arm.yaml", "--to", "modified", "-o", "arm.yaml", "--force"]) == 0
     assert "convention: modified" in Path("arm.yaml").read_text()
+
+
+# ------------------------------------------------------------------------------- what is said
+
+
+def test_to_import_the_main_module_runs_nothing() -> None:
+    """A process that is spawned imports it."""
+    assert importlib.import_module("symdh.__main__").main is main
+
+
+@pytest.mark.parametrize("output", [(), ("-o", "-")])
+def test_a_blank_answer_file_goes_to_standard_output(
+    output: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "arm.yaml").write_text(ARM)
+    assert run(["answer", str(tmp_path / "arm.yaml"), "--blank", *output]) == 0
+    printed = capsys.readouterr().out
+    assert "\nA1:\n  - [_, _, _, _]\n" in printed
+    assert "\nT02:\n  - [_, _, _, _]\n" in printed
+    assert [each.name for each in tmp_path.iterdir()] == ["arm.yaml"]
+
+
+@pytest.mark.parametrize(("option", "lines"), [((), 2), (("--no-ik",), 1)])
+def test_verify_says_of_ik_what_there_is(
+    option: tuple[str, ...], lines: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "arm.yaml").write_text(ARM)
+    command = ["code", str(tmp_path / "arm.yaml"), "--target", "python", "--verify", *option]
+    assert run([*command, "-o", str(tmp_path)]) == 0
+    said = [line for line in capsys.readouterr().out.splitlines() if line.startswith("python: ")]
+    assert len(said) == lines
+    assert ("ik found" in said[-1]) == (not option)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import functools
 import math
+import re
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,6 +16,7 @@ from oracle import read_arm
 from test_latex import overfull, typeset
 
 import symdh
+from symdh.cli.main import run
 from symdh.derivation.blocks import (
     Chapter,
     Display,
@@ -25,6 +28,7 @@ from symdh.derivation.blocks import (
     ParameterTable,
 )
 from symdh.derivation.inverse import Solved, inverse_document
+from symdh.kinematics.inverse import check
 from symdh.kinematics.inverse.inverse import inverse_kinematics
 from symdh.notation.names import split_name
 from symdh.notation.nodes import (
@@ -38,6 +42,7 @@ from symdh.notation.nodes import (
     Sum,
     leaves,
 )
+from symdh.render import pdf
 from symdh.render.latex import render_latex
 from symdh.render.terminal import render_chapters
 
@@ -439,3 +444,52 @@ def test_a_row_that_does_not_move_is_told_to_be_part_of_its_neighbour() -> None:
     """The Jaco's first joint is held for the search; its motion stands before A_2."""
     text = render_chapters(document_of(DATA / "tables" / "kinova_jaco.yaml").chapters, 200)
     assert "A₁ does not move and is made part of A₂." in text
+
+
+THREE_IN_A_PLANE = """\
+name: arm
+convention: standard
+units: {angle: deg, length: m}
+joints:
+  - {theta: theta1, d: 0, a: 0.5, alpha: 0}
+  - {theta: theta2, d: 0, a: 0.4, alpha: 0}
+  - {theta: theta3, d: 0, a: 0.1, alpha: 0}
+"""
+
+
+def test_the_angle_of_a_goal_is_in_the_units_of_the_table(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """At 30, 60 and 10 degrees: x = 0.5 cos 30 + 0.1 cos 100, y = 0.65 + 0.1 sin 100."""
+    (tmp_path / "arm.yaml").write_text(THREE_IN_A_PLANE)
+    x = 0.5 * math.cos(math.radians(30)) + 0.1 * math.cos(math.radians(100))
+    y = 0.65 + 0.1 * math.sin(math.radians(100))
+    assert run(["ik", str(tmp_path / "arm.yaml"), "--pose", f"{x} {y} 100"]) == 0
+    assert re.search(r"^ +1 +30° +60° +10°$", capsys.readouterr().out, re.MULTILINE)
+
+
+def test_a_closed_form_that_misses_a_pose_is_a_failure(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """None is known that does, so one of five poses is counted as missed here."""
+    (tmp_path / "arm.yaml").write_text(THREE_IN_A_PLANE)
+
+    def missed(*arguments: object) -> check.Trials:
+        return check.Trials(5, found=4, counts=Counter({2: 5}), missed=[(0.5, 1.0, -1.5)])
+
+    monkeypatch.setattr(check, "tried", missed)
+    assert run(["ik", str(tmp_path / "arm.yaml"), "--check", "5"]) == 2
+    said = capsys.readouterr().err
+    assert "random poses: 5; joint values found again at 4" in said
+    assert "not found again (radians): 0.500000, 1.000000, -1.500000" in said
+
+
+def test_without_tex_typst_makes_the_pdf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("typst")
+    (tmp_path / "arm.yaml").write_text(THREE_IN_A_PLANE)
+    monkeypatch.setattr(pdf, "find_engine", lambda: pdf.TYPST)
+    made = tmp_path / "arm.pdf"
+    assert run(["ik", str(tmp_path / "arm.yaml"), "--format", "pdf", "-o", str(made)]) == 0
+    content = made.read_bytes()
+    assert content.startswith(b"%PDF-")
+    assert b"Typst" in content

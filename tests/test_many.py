@@ -8,12 +8,15 @@ import select
 import signal
 import subprocess
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from conftest import SYMDH, Runner
 
 from symdh.cli import workers
+from symdh.cli.main import run
+from symdh.errors import LimitError
 
 ARM = """\
 name: {name}
@@ -268,3 +271,24 @@ def test_a_job_that_is_killed_is_lost_and_no_other() -> None:
     found = dict(workers.results_of(doubled, range(8), 2))
     assert found.pop(3) == workers.Lost(-signal.SIGKILL)
     assert found == {job: 2 * job for job in (0, 1, 2, 4, 5, 6, 7)}
+
+
+def test_a_table_whose_process_is_killed_fails_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The kernel ends a process when memory runs out; the user is told which table it was."""
+    tables = arms(tmp_path, "a", "b")
+    monkeypatch.chdir(tmp_path)
+    in_order = workers.results_of
+
+    def second_is_killed(work: object, jobs: list[object], processes: int) -> Iterator[object]:
+        yield from in_order(work, jobs[:1], 1)
+        yield 1, workers.Lost(-9)
+
+    monkeypatch.setattr(workers, "results_of", second_is_killed)
+    assert run(["derive", *tables, "-o", "out"]) == LimitError.exit_status
+    said = capsys.readouterr().err
+    assert "b.yaml: its process was ended (status -9), for want of memory perhaps" in said
+    assert "2 tables: 1 derived, 1 failed" in said
+    assert (tmp_path / "out" / "a" / "a.py").is_file()
+    assert not (tmp_path / "out" / "b").exists()

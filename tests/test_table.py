@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import pickle
 import subprocess
 import sys
 import time
@@ -13,7 +14,7 @@ import jsonschema
 import pytest
 import yaml
 from conftest import Runner
-from sympy import Float, Integer, Rational, Symbol, pi
+from sympy import Float, Integer, Rational, Symbol, cos, pi
 
 from symdh.errors import Diagnostic, ReadError, Severity, TableError
 from symdh.robot import (
@@ -42,6 +43,7 @@ from symdh.table.reader import KEYS
 from symdh.table.schema import SCHEMA_FILE, schema_text
 from symdh.table.starter import STARTER
 from symdh.table.units import ANGLE_UNITS, LENGTH_UNITS
+from symdh.table.uses import dimensions_of_symbols
 
 HEAD = "convention: standard\nname: arm\n"
 ROW = "joints:\n  - {theta: q1, d: 0, a: 0, alpha: 0}\n"
@@ -629,3 +631,18 @@ def test_schema_knows_the_words_of_the_reader() -> None:
     assert set(joint["type"]["enum"]) == set(TYPES)
     assert set(units["angle"]["enum"]) == set(ANGLE_UNITS)
     assert set(units["length"]["enum"]) == set(LENGTH_UNITS)
+
+
+def test_an_expression_that_measures_nothing_known_tells_of_angles_alone() -> None:
+    a, b = sym("a"), sym("b")
+    assert dimensions_of_symbols([(a + cos(2 * b), None)]) == {b: {ANGLE}}
+
+
+def test_the_error_of_a_table_travels_between_processes_with_all_it_says() -> None:
+    told = TableError(
+        [Diagnostic("one", "a.yaml", 1, 2, "x", 1), Diagnostic("two", "a.yaml", 3, 4)]
+    )
+    back = pickle.loads(pickle.dumps(told))
+    assert type(back) is TableError
+    assert back.diagnostics == told.diagnostics
+    assert str(back) == str(told)

@@ -515,3 +515,21 @@ def test_the_same_bytes_whatever_the_hash_seed() -> None:
         )
         outputs.add((ran.stdout, ran.stderr))
     assert len(outputs) == 1
+
+
+@pytest.mark.parametrize("joints", [15, 16])
+def test_of_a_long_chain_the_work_is_announced(
+    joints: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """From sixteen joints on it can take more than two seconds."""
+    links = "".join(f'<link name="l{k}"/>' for k in range(joints + 1))
+    between = "".join(
+        f'<joint name="j{k}" type="revolute"><parent link="l{k}"/><child link="l{k + 1}"/>'
+        f'<origin xyz="1 0 0"/><axis xyz="0 0 1"/><limit lower="-1" upper="1"/></joint>'
+        for k in range(joints)
+    )
+    path = tmp_path / "arm.urdf"
+    path.write_text(f'<robot name="arm">{links}{between}</robot>')
+    assert run(["convert", str(path)]) == 0
+    said = capsys.readouterr().err
+    assert ("assigning frames to 16 joints ..." in said) == (joints == 16)

@@ -163,11 +163,10 @@ class _Reader:
         )
         return LoadedMechanism(mechanism, report.diagnostics(), self.source, self.places)
 
-    def _mapping(self, node: Node | None, known: Sequence[str], where: str) -> dict[str, Node]:
+    def _mapping(self, node: Node, known: Sequence[str], where: str) -> dict[str, Node]:
         """Return the values of a mapping by their keys; an unknown key is an error."""
         if not isinstance(node, MappingNode):
-            if node is not None:
-                self.report.error(node.place(), f"{where} must be a mapping of keys")
+            self.report.error(node.place(), f"{where} must be a mapping of keys")
             return {}
         found = {}
         for key, value in node.items:
