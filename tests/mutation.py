@@ -3,9 +3,9 @@
 Draws places in table, motion, kinematics and codegen with a fixed seed, makes one small change at
 each (an operator, a comparison, a number, a condition, a result), and runs the tests that reach
 the changed line on a copy of the tree until one fails: first those that reach little else, then
-the others, the quick ones first, up to some minutes. Which they are is measured first, with coverage, and kept in
-`.mutation` until a file changes. Prints each survivor, to be read, the part that was killed, and
-its 95 % interval.
+the others, the quick ones first, up to some minutes. Which they are is measured first, with
+coverage, and kept in `.mutation` until a file changes. Prints each survivor, to be read, the part
+that was killed, and its 95 % interval.
 
 Why not mutmut or cosmic-ray: mutmut 3.8 changes no code outside functions and in few with a
 decorator, and takes no sample; cosmic-ray 8.7 runs one command for all mutants, here the whole
