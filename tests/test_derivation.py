@@ -333,6 +333,18 @@ def test_a_big_arm_gets_the_recursion_for_product_and_result(name: str) -> None:
     assert titles[3:] == ["The links", "The pose by recursion"]
 
 
+@pytest.mark.parametrize(
+    ("joints", "titles"),
+    [(8, ["Velocity", "Singularities"]), (9, ["Velocity"]), (10, ["Velocity"]), (11, [])],
+)
+def test_singularities_and_velocity_end_at_their_limits(joints: int, titles: list[str]) -> None:
+    """Singularities are looked for with eight joints at most, velocity is told with ten."""
+    rows = "\n".join(row("0", f"q{k}", "0", "0") for k in range(1, joints + 1))
+    chapters = derive(symdh.loads(table("slides", rows))).chapters
+    told = [c.title for c in chapters if c.title in ("Velocity", "Singularities")]
+    assert told == titles
+
+
 def test_the_order_is_told_in_the_heading() -> None:
     titles = [each.title for each in case_of("puma560").document(Order.LEFT).chapters]
     assert "The product, from base to hand" in titles

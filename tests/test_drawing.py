@@ -169,6 +169,17 @@ def test_a_planar_arm_lies_in_the_paper() -> None:
     assert texts(picture) == sorted(["a₁", "a₂", "θ₁", "θ₂", "x₀", "x₁", "x₂", "y₀", "y₁", "y₂"])
 
 
+@pytest.mark.parametrize(("degrees", "shown"), [(7, False), (9, True), (-7, False), (-9, True)])
+def test_an_angle_that_is_too_small_to_be_seen_has_no_arc(degrees: int, shown: bool) -> None:
+    """Below eight degrees an arc would be shorter than its arrow: it has neither line nor name."""
+    theta1, theta2 = (Symbol(name, real=True) for name in ("theta1", "theta2"))
+    robot = symdh.load(EXAMPLES / "planar_2r.yaml")
+    picture = draw(robot, {theta1: degrees * pi / 180, theta2: pi / 3})
+    assert ("θ₁" in texts(picture)) is shown
+    arcs = [s for s in picture.shapes if isinstance(s, Line) and s.pen is Pen.TURN]
+    assert len(arcs) == 1 + shown
+
+
 @pytest.mark.parametrize(
     ("alpha1", "second", "more", "flat"),
     [

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import os
 import random
+import unicodedata
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
@@ -808,6 +809,41 @@ def test_the_story_is_told_for_every_case(convention: Convention) -> None:
         assert text.count("Frame ") == mechanism.n + 1
         told |= {step.relation for step in found.steps if step.relation}
     assert told == set(Relation)
+
+
+def story(more: str, point: str = "[3, 4, 9]") -> str:
+    """The document on axes 1 and 2 along z and axis 3 along y through (3, 1, 2), in one line."""
+    given = AXES.format(point=point, direction="[0, 0, 1]", more=more)
+    found = assign_frames(mechanism_from(given), Convention.STANDARD)
+    text = " ".join(render_chapters(frames_document(found).chapters).split())
+    return unicodedata.normalize("NFC", text)
+
+
+def test_the_story_of_a_tip_beside_the_last_axis() -> None:
+    """From axis 3 the tip is two along x: there are o_3 and x_3, and z_3 stays along the axis."""
+    told = story("tool: {point: [5, 1, 2]}")
+    assert "The tool's tip is at (5, 1, 2). " in told
+    assert "approaches" not in told
+    assert "x̂₃ points from the last axis to the tip, ẑ₃ along that axis. o₃ = (5, 1, 2)" in told
+    assert "x̂₃ = (1, 0, 0) ẑ₃ = (0, 1, 0)" in told
+
+
+def test_the_story_of_what_was_asked_for() -> None:
+    turned = story("frames: {1: {x: reverse}}")
+    # From axis 1 to axis 2 the normal is (3, 4, 0) / 5; the file wants its opposite.
+    assert "x̂₁ points along the normal, from axis 1 to axis 2, turned round as asked." in turned
+    assert "x̂₁ = (-3/5, -4/5, 0)" in turned
+    chosen = story("frames: {3: {x: [0, 0, 1], origin: [3, 8, 2]}}")
+    assert "The origin o₃ is free along the axis and was chosen; x̂₃ is free and was chosen." in (
+        chosen
+    )
+    assert "as asked" not in chosen
+
+
+@pytest.mark.parametrize(("units", "unit"), [("", ""), ("units: {length: mm}", " mm")])
+def test_the_story_tells_by_how_much_an_axis_was_off(units: str, unit: str) -> None:
+    """Axes 1 and 2 are in line but for a millionth, in the unit of the file, if it has one."""
+    assert f"in line with axis 1; off by 1e-6{unit}. " in story(units, "[0.000001, 0, 5]")
 
 
 def test_frames_command_writes_a_table_that_derives(run_symdh: Runner, tmp_path: Path) -> None:

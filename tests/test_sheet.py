@@ -189,6 +189,14 @@ def test_the_links_are_lettered() -> None:
     assert texts == [f"({letter}) " for letter in "abcd"]
 
 
+def test_letters_are_doubled_after_the_26th_question() -> None:
+    head = "name: arm\nconvention: standard\ncolumns: [theta, d, a, alpha]\nrows:\n"
+    rows = "".join(f"  - [0, q{k}, 0, 0]\n" for k in range(1, 54))
+    links = sheet(loads_table(head + rows).robot, "problem").chapters[1]
+    texts = [block.text[0] for block in links.blocks if isinstance(block, Question)]
+    assert [texts[k] for k in (0, 25, 26, 51, 52)] == ["(a) ", "(z) ", "(aa) ", "(zz) ", "(aaa) "]
+
+
 def test_the_solution_answers_with_what_the_handout_says() -> None:
     robot = example("stanford")
     blocks = [block for each in questions(sheet(robot, "solution")) for block in each.answer or ()]

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from enum import Enum
-from itertools import count
 from string import ascii_lowercase
 
 from symdh.derivation import general, links, numbers, products, result, singularity, velocity
@@ -36,7 +35,7 @@ from symdh.derivation.table import chapter as table_chapter
 from symdh.errors import UnsupportedError
 from symdh.kinematics.forward import ForwardKinematics, forward_kinematics
 from symdh.kinematics.singular import MAX_JOINTS, singularities
-from symdh.kinematics.velocity import GeometricJacobian, has_closed_jacobian
+from symdh.kinematics.velocity import GeometricJacobian
 from symdh.notation.names import split_name
 from symdh.notation.nodes import (
     Call,
@@ -136,8 +135,10 @@ def _lettered(chapter: Chapter) -> Chapter:
 
 def _letters() -> Iterator[str]:
     """Yield a, b, .. z, and then as many of a kind as it takes: aa, bb, ..."""
-    for times in count(1):
+    times = 1
+    while True:
         yield from (letter * times for letter in ascii_lowercase)
+        times += 1
 
 
 def _without_answers(chapter: Chapter) -> Chapter:
@@ -290,9 +291,9 @@ def _velocity(style: Style, forward: ForwardKinematics) -> Iterator[Chapter]:
     """Ask for the Jacobian and for its singularities, where both can be done by hand."""
     robot, start, end = style.robot, forward.start, forward.end
     joints = len(robot.variables)
+    # Along the axes of the first frame the Jacobian of the last one is small where the pose is:
+    # both are measured by the rotations of the whole chain.
     if forward.pose is None or not 0 < joints <= MAX_JOINTS:
-        return
-    if not has_closed_jacobian(robot, end, start):
         return
     found = velocity.readable_jacobian(style, start, end)
     written = style.notation.matrix(found.matrix)
