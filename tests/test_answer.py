@@ -779,6 +779,16 @@ def test_a_report_marks_each_entry(sheets: Path, capsys: pytest.CaptureFixture[s
     assert expected[-4:] == [None] * 4
 
 
+def test_a_term_with_the_wrong_sign_is_named(
+    sheets: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The right one is px = a1 c1 + a2 c12."""
+    (sheets / "sign.yaml").write_text("px: a1*c1 - a2*c12\n")
+    assert run(["answer", str(sheets / "arm.yaml"), str(sheets / "sign.yaml")]) == 1
+    shown = capsys.readouterr().out
+    assert "± a1*c1 - a2*c12: right but for the sign (of the term -a2*c12)" in shown
+
+
 def test_many_sheets_give_a_line_each(sheets: Path, run_symdh: Runner) -> None:
     done = run_symdh("answer", "arm.yaml", "carl.yaml", "anna.yaml", "ben.yaml", cwd=sheets)
     assert done.returncode == 2

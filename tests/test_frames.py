@@ -798,6 +798,17 @@ def test_a_number_too_long_for_a_table_is_refused() -> None:
         table_yaml(robot)
 
 
+def test_an_expression_too_long_for_a_table_is_refused() -> None:
+    """A hundred names of six letters are over the 500 characters that a cell may have."""
+    long = sum((Symbol(f"a{k:05}", real=True) for k in range(100)), start=Integer(0))
+    zero = Integer(0)
+    robot = Robot(
+        "long", Convention.STANDARD, (Joint(JointType.REVOLUTE, t1, zero, long, zero, t1),)
+    )
+    with pytest.raises(LimitError, match="has 897 characters, over the limit of 500"):
+        table_yaml(robot)
+
+
 @pytest.mark.parametrize("convention", BOTH)
 def test_the_story_is_told_for_every_case(convention: Convention) -> None:
     told = set()

@@ -28,7 +28,7 @@ from symdh.derivation.derive import derive
 from symdh.derivation.style import Naming, Order, Style
 from symdh.kinematics.chain import link_word
 from symdh.notation import Notation, total_width
-from symdh.notation.nodes import Equation, Generic, Juxtaposed, Matrix, Name, Node, Rounded
+from symdh.notation.nodes import Equation, Generic, Juxtaposed, Matrix, Name, Node, Rounded, Sum
 from symdh.render.latex import render_latex, render_transform
 from symdh.render.latex_math import LatexWriter
 from symdh.render.latex_text import latex_text
@@ -258,6 +258,14 @@ def test_a_long_entry_is_broken_into_lines_that_fit(tmp_path: Path) -> None:
     entry = EntryStep(Generic("p", "x"), (Notation(robot).write(long),), None)
     text = render_latex(document(Entries(((entry,),))))
     assert text.count(r"&\qquad") >= 3
+    assert overfull(typeset(text, tmp_path)) == []
+
+
+def test_a_long_formula_that_is_no_equation_is_broken(tmp_path: Path) -> None:
+    long = Sum(tuple(Name(f"length_{k}") for k in range(1, 40)))
+    text = render_latex(document(Display(long)))
+    assert text.count(r"&\qquad") >= 3
+    assert [text.count(f"{{{k}}}") for k in (1, 20, 39)] == [1, 1, 1]
     assert overfull(typeset(text, tmp_path)) == []
 
 

@@ -30,8 +30,10 @@ from symdh.notation import Notation, Piece, Shorthand, break_lines, joined, tota
 from symdh.notation.names import GREEK, split_name
 from symdh.notation.nodes import (
     Cross,
+    Degrees,
     Dot,
     Equation,
+    Generic,
     Juxtaposed,
     Listed,
     Matrix,
@@ -39,11 +41,16 @@ from symdh.notation.nodes import (
     Node,
     Number,
     Operator,
+    Pi,
+    PoseName,
     Product,
+    Rounded,
+    Screw,
     Short,
     Sum,
     Transposed,
     Tuple,
+    Unit,
     leaves,
     mapped,
 )
@@ -466,6 +473,43 @@ def test_a_map_reaches_the_leaves_of_formulas(around: Callable[[Node, Node], Nod
     assert leaves(around(first, second)) == (first, second)
     changed = mapped(around(first, second), lambda leaf: other if leaf == second else leaf)
     assert changed == around(first, other)
+
+
+@pytest.mark.parametrize(
+    ("node", "plain", "unicode"),
+    [
+        (Degrees(Rational(45, 2)), "22.5 deg", "22.5°"),
+        (Pi(), "pi", "π"),
+        (Product((Rounded("1.5"), Unit("mm"))), "1.5*mm", "1.5 mm"),
+        (Generic("r", "31"), "r_{31}", "r₃₁"),
+        (Generic("G"), "G", "G"),
+        (Short("c", "12"), "c12", "c₁₂"),
+        (Short("c", "1-2"), "c_{1-2}", "c₁₋₂"),
+        (PoseName("0", "2", craig=False), "T(0,2)", "⁰T₂"),
+        (Screw(Axis.Z), "Screw(z)", "Screw_z"),
+        (Matrix(((Name("a"), Name("b")), (Pi(), Name("c")))), "[[a, b], [pi, c]]", "[a, b; π, c]"),
+        (Listed((Name("a"), Name("b"))), "a, b", "a,   b"),
+        (Dot(Name("a"), Name("b")), "a . b", "a · b"),
+        (Cross(Name("a"), Name("b")), "a x b", "a × b"),
+        (Transposed(Generic("J")), "J^T", "Jᵀ"),
+        (Juxtaposed((Generic("A", "1"), Generic("A", "2"))), "A_{1}*A_{2}", "A₁ A₂"),
+    ],
+)
+def test_nodes_that_are_no_expressions_have_a_plain_form_too(
+    node: Node, plain: str, unicode: str
+) -> None:
+    assert (PLAIN.text(node), UNICODE.text(node)) == (plain, unicode)
+
+
+@pytest.mark.parametrize("kind", MotionKind)
+def test_a_plain_operator_is_spelt_as_in_a_table(kind: MotionKind) -> None:
+    angle, length = Degrees(Rational(90)), Name("a1")
+    amount = angle if kind is MotionKind.ROTATION else length
+    text = PLAIN.text(Operator(kind, Axis.X, amount, craig=True))
+    assert text == ("Rx(90 deg)" if kind is MotionKind.ROTATION else "Tx(a1)")
+    head = "name: arm\nconvention: standard\njoints:\n  - {theta: q1, d: 0, a: 0, alpha: 0}\n"
+    (motion,) = symdh.loads(f"{head}base: [{text}]\n").base
+    assert (motion.kind, motion.axis) == (kind, Axis.X)
 
 
 def test_numbers_in_latex() -> None:

@@ -605,6 +605,21 @@ def test_a_point_in_a_matrix(empty: Path, capsys: Capture) -> None:
     assert json.loads(capsys.readouterr().out)["moved"] == ["-2", "1", "3"]
 
 
+def test_a_point_carries_the_unit_of_the_arm(empty: Path, capsys: Capture) -> None:
+    """By hand: a turn of 30 deg about z takes (2, 0, 0) to (2 cos 30 deg, 1, 0)."""
+    rows = "joints:\n  - {theta: q1, d: 0, a: a1, alpha: 0}\n"
+    Path("arm.yaml").write_text(f"name: arm\nconvention: standard\nunits: {{length: mm}}\n{rows}")
+    command = ["rotate", "--table", "arm.yaml", "--point", "2,0,0"]
+    assert run([*command, "--set=q1=30 deg"]) == 0
+    shown = capsys.readouterr().out
+    assert "p_x = 2 c₁ = 1.7321 mm" in shown
+    assert "p_y = 2 s₁ = 1 mm" in shown
+    assert run([*command, "--symbolic"]) == 0
+    open_angle = capsys.readouterr().out
+    assert "p_y = 2 s₁\n" in open_angle
+    assert "p_z = 0 mm" in open_angle
+
+
 def test_an_arm_without_a_closed_form_has_numbers(empty: Path, capsys: Capture) -> None:
     # No two of the ten axes are parallel at once: the formula would fill pages.
     joints = "".join(f"  - {{theta: q{i}, d: 1, a: 1, alpha: 90 deg}}\n" for i in range(1, 11))

@@ -305,6 +305,22 @@ def test_redundant_planar_arm() -> None:
     assert [sorted(map(str, each)) for each in found.remaining] == [["sin(q2)", "sin(q3)"]]
 
 
+def test_two_joints_on_one_axis_cost_a_rank() -> None:
+    """Joints 1 and 2 turn about one line, joint 3 about one at right angles to it.
+
+    So two columns are equal at every pose, and the third is never a multiple of them.
+    """
+    rows = "  - [q1, 0, 0, 0]\n  - [q2, 0, a2, 90]\n  - [q3, 0, a3, 0]\n"
+    found = singularities(symdh.loads(table_text(rows)))
+    assert (found.rank, len(found.joints), found.factors, found.remaining) == (2, 3, (), ())
+    text = " ".join(render_chapters([chapter(Style(found.robot), found)]).split())
+    assert (
+        "The matrix J has the rank 2 at best. It loses rank where all minors of two rows and "
+        "columns vanish. They have no factor in common that depends on the pose." in text
+    )
+    assert "drops" not in text
+
+
 def test_gear_offset_and_symbolic_twist() -> None:
     rows = "  - [2*q1, 0, a1, 0]\n  - [30 deg - 3*q2, 0, a2, 0]\n"
     (factor,) = singularities(symdh.loads(table_text(rows))).factors or ()

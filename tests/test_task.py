@@ -415,6 +415,22 @@ def test_the_reason_for_each_choice_is_told(empty: Path, capsys: Capture) -> Non
     assert "B is never singular for this arm, in which always θ = 0." in shown
 
 
+def test_an_angle_that_two_joints_leave_open_follows(empty: Path, capsys: Capture) -> None:
+    assert run(["task", str(BY_NAME["planar_2r"])]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert (
+        "All revolute axes are parallel to z, so one angle says the orientation; two joints have "
+        "to do with the position, and the angle follows: φ = θ₁ + θ₂."
+    ) in shown
+
+
+def test_one_component_has_one_row(empty: Path, capsys: Capture) -> None:
+    """x = a1 c1 + a2 c12; a matrix of one row stands between plain brackets."""
+    assert run(["task", str(BY_NAME["planar_2r"]), "--vector", "x"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "J = [ -(a₁ s₁ + a₂ s₁₂) -a₂ s₁₂ ]" in shown
+
+
 def test_numbers_of_a_planar_arm_by_hand(empty: Path, capsys: Capture) -> None:
     """The elbow at (1, 0), the second link and the tool straight up."""
     text = TURNED.format(base="Tz(0)", tool="Tx(0.1)")
@@ -446,6 +462,26 @@ def test_json_is_read_back(empty: Path, capsys: Capture) -> None:
     for text, value in zip(got["vector"], got["values"]["vector"], strict=True):
         assert abs(value_of(parse_expression(text), point) - value) < 1e-12
     assert got["singular_where_zero"] == "sin(theta)"
+
+
+@pytest.mark.parametrize(
+    ("name", "components", "angle"),
+    [
+        ("planar_3r", ["x", "y", "phi"], "theta1 + theta2 + theta3"),
+        # Behind a twist of 180 deg the last axis points down.
+        ("scara_rrpr", ["x", "y", "z", "alpha_z"], "theta1 + theta2 - theta4"),
+    ],
+)
+def test_json_has_the_one_angle_of_parallel_axes(
+    name: str, components: list[str], angle: str, empty: Path, capsys: Capture
+) -> None:
+    assert run(["task", str(BY_NAME[name]), "--format", "json"]) == 0
+    got = json.loads(capsys.readouterr().out)
+    assert got["components"] == components
+    exact = parse_expression(angle)
+    assert parse_expression(got["vector"][-1]) == exact
+    slopes = [exact.coeff(variable) for variable in robot_of(name).variables]
+    assert got["jacobian"][-1] == [str(slope) for slope in slopes]
 
 
 FIXED = """\

@@ -211,6 +211,17 @@ def test_every_template_that_jinja_cannot_read_is_named_at_once(own: Path) -> No
     assert len(caught.value.diagnostics) == 2
 
 
+def test_what_jinja_cannot_read_of_a_style_is_told_when_it_is_included(
+    own: Path, robot: symdh.Robot
+) -> None:
+    """A style goes into a page as it is, so it is read as a template only where one includes it."""
+    style = put(own, "html/page.css", "p { }\n<% if %>\n")
+    put(own, BODY, '<% include "html/page.css" %>')
+    with pytest.raises(TableError) as caught:
+        latex_with(own, robot)
+    assert str(caught.value).startswith(f"{style}:2:1: ")
+
+
 def test_a_file_that_replaces_nothing_is_warned_of(own: Path) -> None:
     put(own, "latex/boddy.tex.jinja", "")
     put(own, "latex/document.tex", "the suffix is forgotten")
@@ -321,6 +332,16 @@ def test_loops_end_at_a_time_limit(
     with pytest.raises(LimitError, match=r"header.h.jinja:\d:1: .*did not end within 0.5 s"):
         header_with(own, robot)
     assert time.monotonic() - start < 5
+
+
+def test_reading_ends_at_a_time_limit(own: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(limits, "TIME_LIMIT", 0.05)
+    path = put(own, HEADER, 50_000 * "{{ a + b }}\n")
+    with (
+        pytest.raises(LimitError, match=f"^{path}: the template takes too much to read$"),
+        own_templates(str(own)),
+    ):
+        pass
 
 
 def test_output_ends_at_a_length_limit(

@@ -14,6 +14,8 @@ from sympy import Integer, Symbol, cos
 import symdh
 from symdh.derivation.blocks import (
     Chapter,
+    Definition,
+    Definitions,
     Display,
     EntryStep,
     EntrySteps,
@@ -212,6 +214,12 @@ def test_chapters_stand_under_their_titles() -> None:
 
 ONE = "name: one\nconvention: standard\njoints:\n  - {theta: theta1, d: 0, a: a1, alpha: 0}\n"
 STEP = EntryStep(Generic("x"), (Number(Integer(1)),), None)
+
+
+def test_a_block_that_a_terminal_does_not_know_is_refused() -> None:
+    meaning = Definitions((Definition(Name("a1"), ("a length",)),))
+    with pytest.raises(TypeError, match=r"^no terminal text for Definitions$"):
+        render_chapters([Chapter("T", (meaning,))])
 
 
 def test_the_table_stands_in_columns() -> None:

@@ -33,6 +33,7 @@ from symdh.notation.nodes import (
     Negative,
     Node,
     Number,
+    Pi,
     PoseName,
     Power,
     Product,
@@ -191,6 +192,8 @@ FORMULAS: list[tuple[Node, str]] = [
     (Call("asin", (Sum((Name("x"), Name("y"))),)), "arcsin(x+y)"),
     (Power(Sum((Name("a"), Name("b"))), Rational(3)), "(a+b)3"),
     (Power(Name("a1"), Rational(2)), "a21"),
+    (Product((Number(Rational(2)), Pi())), "2π"),
+    (Generic("z", "i+1"), "zi+1"),
 ]
 
 
@@ -256,6 +259,7 @@ def test_what_the_font_lacks_is_told_by_its_code(tmp_path: Path) -> None:
 
 def test_white_space_is_a_space() -> None:
     assert typst_text("a\tb\nc\u2028d") == "a b c d"
+    assert typst_text("a\u00a0b") == "a~b"  # Typst's own sign for a space that is not broken
 
 
 # -- the run --------------------------------------------------------------------------------------

@@ -331,6 +331,28 @@ def test_a_gear_and_a_joint_behind_the_frame_are_told() -> None:
     assert "τ₁ = -2 a₁ sin(2 q₁) f_x + 2 a₁ cos(2 q₁) f_y + 2 n_z τ₂ = 0" in text
 
 
+def test_a_point_beside_the_origin_is_named(run_symdh: Runner) -> None:
+    """At (0, 1, 0) of frame 2 the lever of joint 2 is (a2 c12 - s12, a2 s12 + c12, 0)."""
+    ran = run_symdh("jacobian", table_named("planar_2r"), "--at", "0,1,0", env={"COLUMNS": "80"})
+    text = " ".join(ran.stdout.split())
+    assert "The point p, the point (0, 1, 0) of frame 2, moves with the linear velocity v" in text
+    rows = [line for line in ran.stdout.splitlines() if line.rstrip().endswith(("⎤", "⎥", "⎦"))]
+    second = [line.strip(" ⎤⎥⎦").rpartition("  ")[2] for line in rows[-6:]]
+    assert second == ["-(c₁₂ + a₂ s₁₂)", "a₂ c₁₂ - s₁₂", "0", "0", "0", "1"]
+
+
+def test_short_forms_of_the_jacobian_alone_are_introduced() -> None:
+    """Along frame 1 the lever of joint 1 holds c_23, which neither the links nor the pose have."""
+    robot = load(table_named("planar_3r"))
+    style, forward = Style(robot), symdh.forward_kinematics(robot)
+    assert forward.pose is not None
+    known = [style.notation.matrix(matrix) for matrix in (*forward.links, forward.pose)]
+    for frame, told in ((0, False), (1, True)):
+        made = velocity.chapter(style, jacobian(robot, 3, in_=frame), known)
+        text = " ".join(render_chapters([made]).split())
+        assert ("Here c₂₃ = cos(θ₂ + θ₃) and s₂₃ = sin(θ₂ + θ₃)." in text) is told
+
+
 def test_statics_are_the_transpose() -> None:
     text = render_latex(derive(load(table_named("planar_2r"))), fragment=True)
     assert r"= -a_{2} s_{12} f_{x} + a_{2} c_{12} f_{y} + n_{z}" in text

@@ -239,7 +239,7 @@ class Layout:
         return [line for step in steps for line in self._entry(step, widest)]
 
     def _packed(self, matrices: Sequence[NamedMatrix]) -> Iterator[str]:
-        """Yield displays with as many matrices side by side as fit."""
+        """Yield displays with as many matrices side by side as fit; there is one at least."""
         shown: list[str] = []
         used = 0.0
         for block in matrices:
@@ -250,8 +250,7 @@ class Layout:
                 shown, used = [], 0.0
             used += width + (_GAP if shown else 0)
             shown.append(self._math.text(whole))
-        if shown:
-            yield f" {self._math.qquad} ".join(shown)
+        yield f" {self._math.qquad} ".join(shown)
 
     def _entry(self, step: EntryStep, widest: float) -> list[Line]:
         """Return an entry's forms as aligned lines, the identity's name behind the last."""
