@@ -49,8 +49,10 @@ from symdh.kinematics.inverse.roots import real_angles
 from symdh.kinematics.inverse.search import closed_form
 from symdh.kinematics.inverse.solution import ClosedForm, Rule, Tried
 from symdh.kinematics.inverse.task import Kind
+from symdh.render.inverse_json import inverse_json
 from symdh.render.latex import render_latex
 from symdh.render.terminal import render_chapters
+from symdh.table import parse_expression
 from tools import require_tool
 
 #: Random poses of each table, and hard ones of each kind; tests/check_inverse.py tries more.
@@ -851,6 +853,23 @@ def test_the_command_solves_a_pose(run_symdh: Runner) -> None:
     for solution in solutions:
         reached = pose_of(arm_of(table), np.array(solution["q"]))
         assert abs(reached[:2, 3] - [0.6, 0.3]).max() < 1e-12
+
+
+def test_json_names_the_entries_of_a_known_part() -> None:
+    """With three joints found, e_rc are the entries of the rotation from frame 3 to frame 6."""
+    table = DATA / "tables" / "puma560.yaml"
+    steps = json.loads(inverse_json(derived(table)[0]))["steps"]
+    (names,) = (step["names"] for step in steps if step["rule"] == "names for known parts")
+    arm, q = arm_of(table), np.array([0.3, -0.4, 0.5, 0.6, -0.7, 0.8])
+    goal, part = pose_of(arm, q, 0, 6), pose_of(arm, q, 3, 6)
+    known = {f"r{r + 1}{c + 1}": goal[r][c] for r in range(3) for c in range(3)}
+    known |= {f"theta{k}": q[k - 1] for k in range(1, 7)}
+    values = {symbol(name): value for name, value in known.items()}
+    assert len(names) == 9
+    for name, text in names.items():
+        row, column = (int(digit) - 1 for digit in name.removeprefix("e_"))
+        value = float(parse_expression(text).evalf(subs=values))
+        assert abs(value - part[row][column]) < 1e-12
 
 
 def test_the_command_solves_the_pose_of_joint_values(run_symdh: Runner) -> None:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import functools
+import json
 import math
 import re
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from inverse_checks import CLOSED, DATA, derived, pose_of, symbol
 from oracle import read_arm
+from sympy import Integer
 from test_latex import overfull, typeset
 
 import symdh
@@ -28,8 +31,17 @@ from symdh.derivation.blocks import (
     ParameterTable,
 )
 from symdh.derivation.inverse import Solved, inverse_document
+from symdh.derivation.inverse.half_angle import half_angle
+from symdh.derivation.inverse.names import Writer, goal_letters
+from symdh.derivation.inverse.singular import around
+from symdh.derivation.inverse.structure import missing_structure
+from symdh.derivation.inverse.telling import Telling
+from symdh.derivation.style import Style
 from symdh.kinematics.inverse import check
-from symdh.kinematics.inverse.inverse import inverse_kinematics
+from symdh.kinematics.inverse.branches import branches_of
+from symdh.kinematics.inverse.inverse import InverseKinematics, Method, inverse_kinematics
+from symdh.kinematics.inverse.solution import Rule, Tried
+from symdh.kinematics.inverse.structure import Structure
 from symdh.notation.names import split_name
 from symdh.notation.nodes import (
     Equation,
@@ -43,8 +55,10 @@ from symdh.notation.nodes import (
     leaves,
 )
 from symdh.render import pdf
+from symdh.render.inverse_json import inverse_json
 from symdh.render.latex import render_latex
 from symdh.render.terminal import render_chapters
+from symdh.render.unicode_math import UnicodeWriter
 
 each_closed = pytest.mark.parametrize("table", CLOSED, ids=lambda path: path.stem)
 
@@ -493,3 +507,304 @@ def test_without_tex_typst_makes_the_pdf(tmp_path: Path, monkeypatch: pytest.Mon
     content = made.read_bytes()
     assert content.startswith(b"%PDF-")
     assert b"Typst" in content
+
+
+# ---------------------------------------------------------------- arms that ask for other words
+
+
+def arm_of(rows: str, more: str = "", convention: str = "standard") -> symdh.Robot:
+    head = f"name: arm\nconvention: {convention}\nunits: {{angle: deg, length: m}}\n"
+    return symdh.loads(f"{head}columns: [theta, d, a, alpha]\nrows:\n{rows}{more}")
+
+
+def arm_told(robot: symdh.Robot, task: str | None = None, lock: str = "") -> str:
+    """The derivation for an arm, its white space made single spaces."""
+    found = inverse_kinematics(robot, task, [symbol(lock)] if lock else [])
+    return " ".join(render_chapters(inverse_document(found).chapters, 200).split())
+
+
+def table_found(name: str) -> InverseKinematics:
+    return derived(DATA / "tables" / f"{name}.yaml")[0]
+
+
+SPHERE = "  - [theta1, 0, 0, 60]\n  - [theta2, {d2}, a2, 60]\n  - [0, q3, 0, 0]\n"
+
+
+def test_a_slide_that_stands_in_a_square_has_two_values() -> None:
+    """|p|^2 = q3^2 + d2^2 + a2^2 + 2 q3 d2 cos 60 deg, for z_1 and z_2 enclose 60 degrees."""
+    told_all = arm_told(arm_of(SPHERE.format(d2="d2")), "x y z")
+    in_order(
+        told_all,
+        [
+            "k₁ = p_x² + p_y² + p_z² - a₂² - d₂²",
+            "q₃² - k₁ + d₂ q₃ = 0",
+            "q₃⁽¹⁾ = (-d₂ + √(4 k₁ + d₂²))/2 q₃⁽²⁾ = (-d₂ - √(4 k₁ + d₂²))/2",
+            "Where the radicand is negative, the goal is out of reach.",
+        ],
+    )
+    in_order(
+        arm_told(arm_of(SPHERE.format(d2="0")), "x y z"),
+        ["k₁ = p_x² + p_y² + p_z² - a₂²", "q₃² - k₁ = 0", "q₃⁽¹⁾ = √(k₁) q₃⁽²⁾ = -√(k₁)"],
+    )
+
+
+PLANE = "  - [theta1, 0, a1, 0]\n  - [theta2, 0, a2, 0]\n"
+
+
+@pytest.mark.parametrize(
+    ("task", "base", "tool", "says"),
+    [
+        # Of a whole pose T known motions at both ends are taken off.
+        ("pose", True, True, "The base and the tool of the table are known, and T is what remains"),
+        ("pose", True, False, "The base of the table is known, and T is what remains without it."),
+        ("pose", False, True, "The tool of the table is known, and T is what remains without it."),
+        # The base turns y into the plane and z out of it, and z is not given.
+        ("x y", True, False, "The base of the table is part of A₁."),
+        ("x y", False, True, "The tool of the table is part of A₂."),
+        ("x y", True, True, "The base of the table is part of A₁. The tool of the table is part"),
+    ],
+)
+def test_what_becomes_of_base_and_tool_is_told(
+    task: str, base: bool, tool: bool, says: str
+) -> None:
+    more = "base: [Rx(30 deg)]\n" * base + "tool: [Ry(40 deg), Tx(0.1)]\n" * tool
+    text = arm_told(arm_of(PLANE, more), task)
+    assert says in text
+    sentences = ("is known, and", "are known, and", "is part of")
+    assert sum(map(text.count, sentences)) == says.count(" is part") + (" known, " in says)
+
+
+def test_one_unknown_has_no_order() -> None:
+    assert "The unknowns are found in the order" in arm_told(arm_of(PLANE))
+    text = arm_told(arm_of(PLANE), lock="theta2")
+    assert "Wanted: one joint, θ₁." in text
+    assert "θ₂ is locked and known." in text
+    assert "in the order" not in text
+
+
+SUM = """
+  - [theta1, d1, a1, 0]
+  - [{second}, d2, {a2}, -90]
+  - [theta3, 0, 0, 90]
+  - [theta4, 0, 0, 90]
+"""
+
+
+@pytest.mark.parametrize(
+    ("second", "a2", "name", "meaning"),
+    [
+        ("theta2", "a2", "θ₁₂", "θ₁ + θ₂"),
+        # No letter is that of both joints.
+        ("q2", "a2", "σ₁₂", "θ₁ + q₂"),
+        ("q2", "sigma", "τ₁₂", "θ₁ + q₂"),
+        # A length that looks like a short form leaves the table without any.
+        ("theta2", "c12", "σ₁,₂", "θ₁ + θ₂"),
+    ],
+)
+def test_a_sum_of_joints_has_a_name_of_its_own(
+    second: str, a2: str, name: str, meaning: str
+) -> None:
+    """z_3 = (s_3 c_12, s_3 s_12, c_3) by hand, so that r_12 and r_22 give the sum."""
+    text = arm_told(arm_of(SUM.format(second=second, a2=a2)), "pose")
+    in_order(
+        text,
+        [
+            f"An unknown of its own is {name} = {meaning}",
+            f"{name}⁽¹⁾ = atan2(r₂₂, r₁₂) {name}⁽²⁾ = {name}⁽¹⁾ + 180°",
+            f"Where r₁₂ and r₂₂ are both zero, {name} is free",
+            f"no. {name}",
+            f"1 {name}⁽¹⁾ 2 {name}⁽²⁾",
+        ],
+    )
+
+
+@pytest.mark.parametrize(("third", "branch"), [(0.5, "¹"), (-0.5, "²")])
+@pytest.mark.parametrize(("second", "name"), [("theta2", "θ₁₂"), ("q2", "σ₁₂")])
+def test_a_solution_tells_which_value_of_a_sum_it_has(
+    second: str, name: str, third: float, branch: str
+) -> None:
+    """atan2(r_22, r_12) is the sum itself where s_3 is positive, else it is half a turn off."""
+    lengths = "values: {d1: 0.1, a1: 0.4, d2: 0.2, a2: 0.5}\n"
+    robot = arm_of(SUM.format(second=second, a2="a2"), lengths)
+    found = inverse_kinematics(robot, "pose")
+    q = dict(zip(robot.variables, (0.3, 0.4, third, 0.6), strict=True))
+    goal = robot.T().xreplace({**robot.values, **q}).tolist()
+    goal = [[float(entry) for entry in row] for row in goal]
+    (answer,) = found.solver().solve(goal)
+    assert list(answer.q) == pytest.approx(list(q.values()), abs=1e-9)
+    document = inverse_document(found, Solved(goal, [answer]))
+    assert f"1: {name}⁽{branch}⁾." in render_chapters(document.chapters[-2:-1])
+    assert Reader().read(document) == []
+
+
+def test_a_letter_of_the_table_is_not_given_again() -> None:
+    """The length a2 of the example is called k1: what is known is k_2."""
+    text = re.sub(r"\ba2\b", "k1", (EXAMPLES / "rrp_modified.yaml").read_text())
+    document = inverse_document(inverse_kinematics(symdh.loads(text)))
+    in_order(
+        render_chapters(document.chapters, 200),
+        ["k₂ = p_x c₁ + p_y s₁", "k₂ c₂ + p_z s₂ = k₁", "d₃ = k₂ s₂ - p_z c₂"],
+    )
+
+
+def test_a_minus_before_what_is_known_stands_before_the_fraction() -> None:
+    """With k_2 = w_y / 2 - w_z cos 30 deg, q_3 c_2 = -k_2: the sign comes to the front."""
+    rows = "  - [theta1, 0, a1, 30]\n  - [theta2, 0.1, a2, 90]\n  - [0, q3, 0, -90]\n"
+    in_order(
+        arm_told(arm_of(rows, convention="modified")),
+        ["k₂ = 1/2 w_y - √3/2 w_z", "q₃ c₂ = √3/2 w_z - 1/2 w_y Hence q₃ = -k₂/c₂"],
+    )
+
+
+def test_equations_that_stand_there_are_not_collected_again() -> None:
+    """The origin of frame 2 is (a2, -d2) turned by theta_1: that is a rotation as it stands."""
+    rows = "  - [theta1, 0.3, 0, 0]\n  - [theta2, 0.2, 0.1, 90]\n  - [theta3, d3, 0, -90]\n"
+    text = arm_told(arm_of(rows, convention="modified"), "pose")
+    assert text.count("w_x = a₂ c₁ + d₂ s₁ w_y = a₂ s₁ - d₂ c₁") == 1
+    assert "Collected" not in text
+    assert "w_x = ρ₁ sin(ψ₁ - θ₁) w_y = ρ₁ cos(ψ₁ - θ₁)" in text
+
+
+def test_a_pair_that_the_goal_may_spoil_is_not_promised() -> None:
+    """Other pairs hold entries of the goal, so that nobody knows where they fail.
+
+    z_1 and z_3 are at right angles to z_2, and parallel where cos theta_2 = 0, by hand; behind a
+    slide there are no three axes of which that could be said.
+    """
+    rows = "  - [theta1, 0, a1, 90]\n  - [theta2 + 90, 0.4, a2, -90]\n  - [theta3, 0, a3, 90]\n"
+    text = arm_told(arm_of(rows, convention="modified"), "x y phi")
+    may = "Another pair of entries may serve there; where none does, θ₁ is free:"
+    parallel = "the axes of joints 1 and 3 are parallel"
+    assert f"Where c₂ is zero, this pair says nothing: {parallel}. {may} then {parallel}" in text
+    slide = "  - [theta1, 0.2, 0, 90]\n  - [90, q2, 0.8, 0]\n  - [theta3, 0.8, 0.4, -90]\n"
+    text = arm_told(arm_of(f"{slide}  - [theta4, d4, 0.5, -90]\n"))
+    assert f"Where c₃ is zero, this pair says nothing. {may} it may keep the value" in text
+
+
+def writer_of(found: InverseKinematics) -> Writer:
+    form = found.form
+    assert form is not None
+    return Writer(Style(form.arm.robot, leading=goal_letters(form)), form, branches_of(form))
+
+
+def test_a_quotient_by_one_is_no_fraction() -> None:
+    writer, text = writer_of(table_found("planar_2r")), UnicodeWriter().text
+    half = symbol("a1") / 2
+    assert text(writer.quotient(half, Integer(1))) == "1/2 a₁"
+    assert text(writer.quotient(half, Integer(-1))) == "-1/2 a₁"
+
+
+def test_nothing_is_named_about_the_zero_of_a_sum() -> None:
+    """Of the angle of one joint the axes beside it can be told, of that of several they cannot."""
+    form = writer_of(table_found("minimover_5r")).form
+    rows = [tuple(row for row, _ in each) for each in form.ring.forms]
+    assert around(form, 2 * rows.index((2, 3, 4))) is None
+
+
+def test_two_short_equations_need_no_letters_before_an_angle_is_eliminated() -> None:
+    """For x and y with sin x = p and cos x = sin y: squared and added, sin^2 y + p^2 = 1."""
+    found = inverse_kinematics(
+        arm_of("  - [theta1, d1, a1, 70]\n  - [theta2, d2, a2, 50]\n"), "x y"
+    )
+    writer = writer_of(found)
+    ring, form = writer.form.ring, writer.form
+    (step,) = (step for step in form.steps if step.rule is Rule.HALF_ANGLE)
+    letter = dict(zip(ring.letters, ring.ring.gens, strict=True))
+    assert step.eliminated is not None
+    goal = next(k for k in range(len(ring.letters)) if ring.is_given(k))
+    known, sine = ring.letters[goal], writer.sine(step.unknown)
+    one, zero = ring.one, ring.zero
+    short = replace(step, coefficients=(one, zero, -letter[known], zero, one, -letter[sine]))
+    blocks = half_angle(Telling(writer, "joint", replace(short, scales=())))
+    text = " ".join(render_chapters([Chapter("T", tuple(blocks))], 200).split())
+    write = UnicodeWriter().text
+    x, y = (write(writer.unknown(k)) for k in (step.eliminated, step.unknown))
+    assert f"These are two equations that hold {x} and {y} alone:" in text
+    assert "With a letter" not in text
+    squares = [f"{write(writer.expression(each))}²" for each in (sine, known)]
+    assert any(f"{a} + {b} = 1" in text for a, b in (squares, squares[::-1]))
+
+
+# ---------------------------------------------------------------- where there is no closed form
+
+
+def test_what_is_missing_for_a_closed_form_is_said() -> None:
+    bare = Structure((), None, None, ())
+    assert missing_structure(bare, 5) == (
+        "The rules that are known here do not settle every joint from what is given."
+    )
+    assert missing_structure(bare, 6).startswith("A closed form is known for six joints where")
+    for shape in (
+        replace(bare, wrist=(4, 5, 6)),
+        replace(bare, shoulder=(1, 2, 3)),
+        replace(bare, parallel=((2, 3, 4),)),
+    ):
+        (_, said) = missing_structure(shape, 6).split(". The structure ")
+        assert said == "that the arm has is not enough for the rules that are known here."
+    two = missing_structure(replace(bare, parallel=((2, 3),)), 6)
+    assert two.startswith("The axes of joints 2 and 3 are parallel: their angles occur as sums. A")
+
+
+def searched_only(name: str) -> InverseKinematics:
+    """An arm as if no closed form of it were known, and the search had found one joint."""
+    found = table_found(name)
+    assert found.form is not None
+    tried = Tried(found.form.steps[:1], (0,))
+    return replace(found, method=Method.LEAST_SQUARES, form=None, tried=tried)
+
+
+def test_a_search_says_that_it_is_one() -> None:
+    found = searched_only("planar_2r")
+    solver = found.solver()
+    arm = read_arm((DATA / "tables" / "planar_2r.yaml").read_text())
+    goal = pose_of(arm, np.array([0.5, 0.8])).tolist()
+    solved = Solved(goal, solver.solve(goal))
+    document = inverse_document(found, solved)
+    assert [chapter.title for chapter in document.chapters] == ["No closed form", "Numbers"]
+    text = " ".join(render_chapters(document.chapters, 200).split())
+    assert "and the search came as far as one step." in text
+    assert "What is offered instead is damped least squares from many starting points." in text
+    assert "There is no closed form. Solved by damped least squares" in text
+    assert "It has two solutions" in text
+    assert "1:" not in text
+    assert inverse_document(found).chapters == document.chapters[:1]
+    content = json.loads(inverse_json(found, solved))
+    assert (content["steps"], content["most_solutions"]) == ([], None)
+    assert [answer["branches"] for answer in content["solutions"]] == [[], []]
+
+
+@pytest.mark.parametrize(
+    ("searched", "says"),
+    [
+        (False, "This goal has no solution: it is out of reach."),
+        (True, "This goal has no solution that was found; there may be one all the same."),
+    ],
+)
+def test_only_a_closed_form_knows_that_there_is_no_solution(searched: bool, says: str) -> None:
+    """Ten metres are farther than an arm of two links of half a metre reaches."""
+    found = table_found("planar_2r")
+    found = searched_only("planar_2r") if searched else found
+    goal = [[1.0, 0, 0, 10], [0, 1.0, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1.0]]
+    document = inverse_document(found, Solved(goal, found.solver().solve(goal)))
+    assert document.chapters[-1].title == "Numbers"
+    assert says in " ".join(render_chapters(document.chapters[-1:], 200).split())
+
+
+def test_a_joint_that_is_free_is_named_beside_its_solution() -> None:
+    """Where theta_2 is zero the first and the last axis of a ZYZ wrist are one."""
+    found = table_found("zyz_wrist")
+    answers = found.solver().solve(np.eye(4).tolist())
+    text = render_chapters(inverse_document(found, Solved(np.eye(4).tolist(), answers)).chapters)
+    assert re.search(r"\n1: .*singular, θ[₁₃] free\.", text)
+
+
+def test_a_solution_outside_the_limits_is_marked() -> None:
+    """theta_2 may not be negative, and one of the two solutions bends the elbow that way."""
+    text = (DATA / "tables" / "planar_2r.yaml").read_text()
+    found = inverse_kinematics(symdh.loads(f"{text}limits: {{theta2: [0, 170 deg]}}\n"))
+    goal = pose_of(read_arm(text), np.array([0.5, 0.8])).tolist()
+    answers = found.solver().solve(goal)
+    numbers = render_chapters(inverse_document(found, Solved(goal, answers)).chapters[-2:-1])
+    (outside,) = (k for k, answer in enumerate(answers, start=1) if answer.q[1] < 0)
+    (line,) = (line for line in numbers.splitlines() if "outside the limits of the table" in line)
+    assert line.startswith(f"{outside}: ")

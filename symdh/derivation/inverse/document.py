@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from symdh.derivation.blocks import (
     Block,
     Chapter,
+    Display,
     Document,
     EntrySteps,
     Paragraph,
@@ -83,13 +84,11 @@ def _formulas(blocks: Sequence[Block]) -> list[Node]:
     """Return the formulas in blocks."""
     found: list[Node] = []
     for block in blocks:
-        match block:
-            case EntrySteps(entries=entries):
-                found += [node for step in entries for node in (step.name, *step.forms)]
-            case Paragraph(content=content):
-                found += [part for part in content if not isinstance(part, str)]
-            case _:
-                formula = getattr(block, "formula", None)
-                if formula is not None:
-                    found.append(formula)
+        if isinstance(block, EntrySteps):
+            found += [node for step in block.entries for node in (step.name, *step.forms)]
+        elif isinstance(block, Paragraph):
+            found += [part for part in block.content if not isinstance(part, str)]
+        else:
+            assert isinstance(block, Display), "a step is told by nothing else"
+            found.append(block.formula)
     return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from sympy import Add, Expr, Integer, Mul, Symbol
@@ -12,7 +13,7 @@ from symdh.derivation.inverse.formulas import beside, inverses
 from symdh.derivation.style import Style
 from symdh.kinematics.inverse.branches import Branches
 from symdh.kinematics.inverse.pool import Source
-from symdh.kinematics.inverse.ring import Element
+from symdh.kinematics.inverse.ring import Element, InverseRing
 from symdh.kinematics.inverse.solution import ClosedForm
 from symdh.notation.names import split_name
 from symdh.notation.nodes import (
@@ -25,8 +26,11 @@ from symdh.notation.nodes import (
     Number,
 )
 from symdh.notation.writing import weight
+from symdh.robot import Robot
 
 _ONE = Integer(1)
+#: Letters for a sum of joint angles.
+_SUM_LETTERS = ("sigma", "tau", "chi")
 #: A coefficient that has more to read than this gets a name.
 _SHORT = 2
 
@@ -38,6 +42,44 @@ def goal_letters(form: ClosedForm) -> tuple[str, ...]:
     order = {f"{stem}_{axis}": k for stem in "pwu" for k, axis in enumerate("xyz")}
     names.sort(key=lambda name: (name[-2] != "_", order.get(name, 9), name))
     return (*(f"k_{count}" for count in range(1, 100)), *names)
+
+
+def unknown_name(style: Style, ring: InverseRing, unknown: int, stage: str = "") -> Node:
+    """Name an unknown: theta_1, or theta_{23} for a sum of joint angles.
+
+    A sum of joints that have several letters, or no short forms, has a letter of its own:
+    sigma_{23}.
+
+    Parameters
+    ----------
+    style : Style
+    ring : InverseRing
+    unknown : int
+    stage : str
+        Which of its values is meant.
+    """
+    expression = ring.unknown_expression(unknown)
+    if expression.is_Symbol:
+        letter, index = split_name(expression.name)
+        return Generic(letter, index, stage) if stage else Name(expression.name)
+    shorthand = style.notation.shorthand
+    found = shorthand.joint_sum(expression)
+    if found is None:
+        return Generic(_sum_letter(style.robot), _rows_label(ring.forms[unknown]), stage)
+    letters = {split_name(symbol.name)[0] for symbol in expression.free_symbols}
+    letter = letters.pop() if len(letters) == 1 else _sum_letter(style.robot)
+    return Generic(letter, shorthand.label(found[0]), stage)
+
+
+def _sum_letter(robot: Robot) -> str:
+    """Return a letter for sums that the table does not use."""
+    used = {split_name(s.name)[0] for s in (*robot.variables, *robot.parameters)}
+    return next((letter for letter in _SUM_LETTERS if letter not in used), _SUM_LETTERS[0])
+
+
+def _rows_label(form: Iterable[tuple[int, int]]) -> str:
+    """Return the rows of a sum as an index: 2,3 or 2,-3."""
+    return ",".join(str(sign * row) for row, sign in form)
 
 
 @dataclass(frozen=True)
@@ -151,16 +193,8 @@ class Writer:
         return self._ring.letters[2 * unknown + 1]
 
     def unknown(self, unknown: int, stage: str = "") -> Node:
-        """Write an unknown: theta_1, or theta_{23} for a sum; `stage` tells solutions apart."""
-        expression = self._ring.unknown_expression(unknown)
-        if expression.is_Symbol:
-            letter, index = split_name(expression.name)
-            return Generic(letter, index, stage) if stage else Name(expression.name)
-        found = self.style.notation.shorthand.joint_sum(expression)
-        letters = {split_name(symbol.name)[0] for symbol in expression.free_symbols}
-        if found is None or len(letters) != 1:
-            return self.expression(expression)
-        return Generic(letters.pop(), self.style.notation.shorthand.label(found[0]), stage)
+        """Write an unknown; `stage` tells solutions apart (see `unknown_name`)."""
+        return unknown_name(self.style, self._ring, unknown, stage)
 
     def is_sum(self, unknown: int) -> bool:
         """Say whether an unknown is a sum of joint angles."""

@@ -18,6 +18,7 @@ from symdh.derivation.blocks import (
     Text,
 )
 from symdh.derivation.inverse.formulas import listed
+from symdh.derivation.inverse.names import unknown_name
 from symdh.derivation.inverse.solutions import NUMBER
 from symdh.derivation.style import Style
 from symdh.derivation.words import counted
@@ -25,7 +26,6 @@ from symdh.kinematics.inverse.branches import Branches, branches_of
 from symdh.kinematics.inverse.inverse import InverseKinematics, Method
 from symdh.kinematics.inverse.judge import Answer
 from symdh.kinematics.inverse.solution import ClosedForm
-from symdh.notation.names import split_name
 from symdh.notation.nodes import (
     Generic,
     Matrix,
@@ -105,7 +105,10 @@ def numbers_chapter(found: InverseKinematics, solved: Solved) -> Chapter:
     branches = None
     if found.form is not None and found.method is Method.CLOSED_FORM:
         branches = branches_of(found.form, solved.values)
-    told = [_answer_note(found.form, branches, k, a) for k, a in enumerate(solved.answers, start=1)]
+    told = [
+        _answer_note(style, found.form, branches, k, a)
+        for k, a in enumerate(solved.answers, start=1)
+    ]
     notes: list[Text] = [note for note in told if note]
     worst = max(answer.error for answer in solved.answers)
     blocks.append(ParameterTable(header, tuple(rows), tuple(notes)))
@@ -120,17 +123,18 @@ def numbers_chapter(found: InverseKinematics, solved: Solved) -> Chapter:
     return Chapter("Numbers", tuple(blocks))
 
 
-def _answer_note(form: ClosedForm | None, branches: Branches | None, k: int, a: Answer) -> Text:
+def _answer_note(
+    style: Style, form: ClosedForm | None, branches: Branches | None, k: int, a: Answer
+) -> Text:
     """Say which branches a solution is, and what else there is to know of it."""
     said: list[Text] = []
     if form is not None and branches is not None and a.branches:
         for each, branch in zip(branches.steps, a.branches, strict=True):
-            unknown = form.ring.unknown_expression(each.step.unknown)
             if each.feature is not None:
                 said.append((each.feature.name(a.q),))
-            elif unknown.is_Symbol:
-                letter, index = split_name(unknown.name)
-                said.append((Generic(letter, index, str(branch + 1)),))
+            else:
+                stage = str(branch + 1)
+                said.append((unknown_name(style, form.ring, each.step.unknown, stage),))
     if a.free:
         said.append(("singular, ", *listed([Name(v.name) for v in a.free]), " free"))
     if not a.within_limits:

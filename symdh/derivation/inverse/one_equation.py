@@ -107,17 +107,15 @@ def _reduced(telling: Telling) -> tuple[Expr, Expr, Expr, bool]:
     turned = writer.is_negative(-c)
     if turned:
         a, b, c = -a, -b, -c
-    common = a.gcd(b)
+    common = a.gcd(b)  # of rational numbers, so its first coefficient is positive
     lengths = len(common) == 1 and all(
         ring.letters[k].is_Symbol and k in ring.first_lengths
         for k, power in enumerate(common.LM)
         if power
     )
-    if not lengths or common in (ring.one, -ring.one):
+    if not lengths or common == ring.one:
         short_a, short_b, short_c = telling.linear((a, b, c))
         return short_a, short_b, -short_c, turned
-    if common.LC < 0:
-        common = -common
     if writer.sign_of(common) < 0:
         turned = not turned
     short_a, short_b = (writer.short(part.exquo(common), telling.new) for part in (a, b))

@@ -70,8 +70,6 @@ def meaning_of_free(telling: Telling) -> tuple[Inline, ...]:
     form = telling.writer.form
     moving, unknown = form.arm.moving, telling.step.unknown
     kept = "it may keep the value that it has."
-    if not form.ring.is_angle(unknown):
-        return (kept,)
     rows = [row for row, _ in form.ring.forms[unknown]]
     if rows == [moving[0]] and len(moving) > 1 and _of_position(telling):
         point = Generic("w" if form.arm.is_shifted else "p")

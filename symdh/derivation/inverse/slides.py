@@ -8,7 +8,7 @@ from symdh.derivation.blocks import Block, Display, EntryStep, Paragraph
 from symdh.derivation.inverse.formulas import equation
 from symdh.derivation.inverse.remarks import empty_where
 from symdh.derivation.inverse.telling import Telling, solution
-from symdh.notation.nodes import Fraction, Negative, Sum
+from symdh.notation.nodes import Fraction, Negative, Node, Sum
 
 
 def slide(telling: Telling) -> list[Block]:
@@ -26,16 +26,17 @@ def slide_square(telling: Telling) -> list[Block]:
     a, b, c = telling.linear(telling.step.coefficients)
     q = writer.form.ring.unknown_expression(telling.step.unknown)
     write = writer.expression
-    root = write(sqrt(b**2 - 4 * a * c))
-    before = () if b.is_zero else (write(-b),)
-    tops = [(*before, root), (*before, Negative(root))]
+    values: list[Node]
+    if b.is_zero:
+        root = write(sqrt(-c / a))
+        values = [root, Negative(root)]
+    else:
+        root = write(sqrt(b**2 - 4 * a * c))
+        tops = (Sum((write(-b), root)), Sum((write(-b), Negative(root))))
+        values = [Fraction(top, write(2 * a)) for top in tops]
     rows = [
-        EntryStep(
-            writer.unknown(telling.step.unknown, str(k)),
-            (Fraction(Sum(top) if before else top[0], write(2 * a)),),
-            None,
-        )
-        for k, top in enumerate(tops, start=1)
+        EntryStep(writer.unknown(telling.step.unknown, str(k)), (value,), None)
+        for k, value in enumerate(values, start=1)
     ]
     return [
         *telling.introduced(),
