@@ -19,8 +19,8 @@ from oracle import read_arm_file
 
 from symdh.cli.main import run
 from symdh.errors import TableError, UnsupportedError
-from symdh.kinematics.answers import JudgedClaim, JudgedSheet, judge
-from symdh.kinematics.answers.circle import UndecidedError, equal_in_ring
+from symdh.kinematics.answers import JudgedClaim, JudgedSheet, circle, judge
+from symdh.kinematics.answers.circle import UndecidedError, _known_values, equal_in_ring
 from symdh.kinematics.answers.equality import Sameness, compare
 from symdh.kinematics.answers.figures import Written
 from symdh.notation.short_names import ShortNames
@@ -462,6 +462,51 @@ def test_the_ring_proves_identities(left: sp.Expr, right: sp.Expr) -> None:
     assert not equal_in_ring(left, -right)
 
 
+def test_functions_of_different_arguments_are_different_letters() -> None:
+    first, second = sp.atan2(Y, X), sp.atan2(X, Y)
+    assert equal_in_ring(first - second + sp.Abs(X), sp.Abs(X) - (second - first))
+    assert not equal_in_ring(first + sp.Abs(X), second + sp.Abs(X))
+    assert not equal_in_ring(sp.Abs(X) * sp.Abs(Y), sp.Abs(X) ** 2)
+
+
+def test_a_root_of_a_quotient_is_one_letter_without_a_relation() -> None:
+    """Roots of equal quotients are one letter; what its square is, the ring does not know."""
+    root, same = sp.sqrt(1 + 1 / X), sp.sqrt((X + 1) / X)
+    assert root != same  # as they are written
+    assert equal_in_ring(root * Y, Y * same)
+    assert not equal_in_ring(root, sp.sqrt(1 - 1 / X))
+    assert not equal_in_ring(root**3, root + root / X)
+    assert compare(root**3, root + root / X, [{X: 0.3}, {X: 1.7}]) is Sameness.BY_NUMBER
+
+
+@pytest.mark.parametrize("parts", range(1, 121))
+def test_sines_of_parts_of_pi_that_are_known_have_no_quotient(parts: int) -> None:
+    """The ring takes their numerators: no bottom is lost, and their squares add up to 1."""
+    values = _known_values(sp.pi, sp.Rational(1, parts))
+    for value in values or ():
+        assert sp.fraction(sp.together(value))[1].is_Integer
+    angle = sp.pi / parts
+    assert equal_in_ring(sp.cos(angle + X), sp.cos(angle) * sp.cos(X) - sp.sin(angle) * sp.sin(X))
+
+
+def test_the_ring_gives_up_before_a_product_is_too_large(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(circle, "_MOST_PRODUCTS", 4)
+    assert not equal_in_ring((X + Y) * (X - Y), X)  # 2 by 2 terms
+    with pytest.raises(UndecidedError):
+        equal_in_ring((X + Y + 1) * (X - Y), X)  # 3 by 2
+
+
+def test_the_ring_gives_up_before_a_square_of_a_sine_is_put_into_too_much(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """sin^2 is 1 - cos^2, two terms for each term that it stands before."""
+    monkeypatch.setattr(circle, "_MOST_PRODUCTS", 5)
+    sine = sp.sin(X)
+    assert not equal_in_ring(sine * (sine * Y + sine * X), X)  # two squares, four terms
+    with pytest.raises(UndecidedError):
+        equal_in_ring(sine * (sine * Y + sine * X + sine), X)  # three squares, six terms
+
+
 def test_the_ring_gives_up_in_time() -> None:
     letters = sp.symbols("a:h", real=True)
     with pytest.raises(UndecidedError):
@@ -493,6 +538,7 @@ def test_a_root_of_a_square_is_right_for_positive_lengths_only() -> None:
         ("planar_2r", "A1[2,1]: abs(s1)", "WRONG", ""),
         ("planar_2r", "A1[2,1]: sqrt(1 - c1**2)", "WRONG", ""),
         ("planar_2r", "A1[1,1]: c1*(cos(65*theta1)**2 + sin(65*theta1)**2)", "RIGHT", "50 digits"),
+        ("planar_2r", "A1[1,1]: (abs(a1)*c1 + abs(a2)*c1)/(abs(a1) + abs(a2))", "RIGHT", ""),
         ("planar_2r", "numbers: {'A1[1,1]': 0.866}", "RIGHT", ""),
         ("planar_2r", "numbers: {px: sqrt(a1 - 1)}", "WRONG", "it has no real value"),
         ("planar_2r", "J[1,1]: 5*a1", "WRONG", ""),
@@ -544,6 +590,18 @@ def test_rows_as_lists(table: str, rows: str, cell: str, verdict: str, told: str
     assert told in found[cell].finding.note
     others = {each.verdict.name for label, each in found.items() if label != cell}
     assert others == {"RIGHT"} or "row 3" in cell
+
+
+def test_rows_with_a_blank_are_no_other_choice_of_frames() -> None:
+    """d of 5 and -5 on parallel axes cancel: right together, but not with one of them alone."""
+    (whole,) = judged("planar_2r", "rows: [[theta1, 5, a1, 0], [theta2, -5, a2, 0]]").claims
+    assert {each.verdict.name for each in whole.entries} == {"RIGHT"}
+    assert "another choice of frames" in whole.hint
+    (part,) = judged("planar_2r", "rows: [[theta1, 5, a1, 0], [theta2, '', a2, 0]]").claims
+    found = {each.label: each.verdict.name for each in part.entries}
+    assert (found.pop("d of row 1"), found.pop("d of row 2")) == ("WRONG", "BLANK")
+    assert set(found.values()) == {"RIGHT"}
+    assert part.hint == ""
 
 
 def test_equal_in_double_precision_is_not_equal() -> None:

@@ -215,15 +215,16 @@ class _Ring:
     def _letter(self, e: Expr) -> Ratio:
         """Return a letter; functions of equal arguments are one letter."""
         if isinstance(e, _OPAQUE):
+            arguments = [self.read(x) for x in e.args]
             for other, ratio in self._same.items():
-                if type(other) is type(e) and self._alike(other, e):
+                if type(other) is type(e) and self._alike(other, arguments):
                     return ratio
         found = self._whole(self._ring.gens[self._generator(e)])
         self._same[e] = found
         return found
 
-    def _alike(self, e: Expr, f: Expr) -> bool:
-        pairs = ((self.read(x), self.read(y)) for x, y in zip(e.args, f.args, strict=True))
+    def _alike(self, e: Expr, arguments: list[Ratio]) -> bool:
+        pairs = zip(map(self.read, e.args), arguments, strict=True)
         return all(self.times(x.top, y.bottom) == self.times(y.top, x.bottom) for x, y in pairs)
 
     def _root(self, root: Expr) -> Ratio:
@@ -267,10 +268,8 @@ class _Ring:
         for part, coefficient in _split(angle):
             values = _known_values(part, coefficient)
             if values is not None:
-                c, s = (self.read(value) for value in values)
-                if c.bottom != self._one or s.bottom != self._one:
-                    raise UndecidedError
-                pair = self._sum(pair, (c.top, s.top))
+                c, s = (self.read(value).top for value in values)
+                pair = self._sum(pair, (c, s))
                 continue
             k = self._angles.index(part)
             times = int(coefficient * self._parts[part])
@@ -300,7 +299,10 @@ def _split(angle: Expr) -> list[tuple[Expr, Rational]]:
 
 
 def _known_values(part: Expr, coefficient: Rational) -> tuple[Expr, Expr] | None:
-    """Return cosine and sine of a multiple of pi that has them in roots: 30 deg, 45 deg."""
+    """Return cosine and sine of a multiple of pi that has them in roots: 30 deg, 45 deg.
+
+    They are sums of products of roots and rational numbers, never quotients.
+    """
     if part != pi:
         return None
     values = cos(coefficient * pi), sin(coefficient * pi)
