@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 from conftest import Runner
 from oracle import EXTENDED, elementary, read_arm_file
-from sympy import Expr, Integer, Matrix, Rational, Symbol, atan2, cos, pi, sin, sqrt
+from sympy import Expr, Integer, Matrix, Rational, Symbol, atan2, cos, pi, sin, sqrt, symbols
 
 from symdh.cli.main import run
 from symdh.derivation.frames import frames_document
@@ -374,6 +374,23 @@ def test_free_choices(more: str, frame: int, origin: Any, x: Any) -> None:
         robot = assign(each, Convention.STANDARD)
         moved = table_pose(robot, q) @ np.linalg.inv(table_pose(robot, home))
         assert moved == pytest.approx(moved_by(mechanism, q), abs=1e-12)
+
+
+def test_a_direction_whose_entries_share_a_letter() -> None:
+    """x_0 = (3, 4, 0)/5 for b = 3 and c = 4, whatever a is."""
+    size = "sqrt(a**2*b**2 + a**2*c**2)"
+    more = f"frames: {{0: {{x: [a*b/{size}, a*c/{size}, 0]}}}}"
+    mechanism = mechanism_from(AXES.format(point="[3, 4, 9]", direction="[0, 0, 1]", more=more))
+    found = assign_frames(mechanism, Convention.STANDARD)
+    a, b, c = symbols("a b c", real=True)
+    x, y, z = found.steps[0].placed.columns
+    for number in (Rational(1, 7), Integer(2)):
+        known = {a: number, b: Integer(3), c: Integer(4)}
+        x_0, y_0 = ([entry.xreplace(known) for entry in column] for column in (x, y))
+        assert x_0 == [Rational(3, 5), Rational(4, 5), 0]
+        assert y_0 == [-Rational(4, 5), Rational(3, 5), 0]
+        assert z == (0, 0, 1)
+        assert abs(constant(found.robot.base[0].amount.xreplace(known)) - np.arctan2(4, 3)) < 1e-15
 
 
 def test_z_may_point_against_the_joint() -> None:

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from sympy import Expr, Float, ImmutableMatrix, Integer, Matrix, Rational, Symbol, expand, eye, pi
 from sympy import sqrt as root
 
-from symdh.errors import UnsupportedError
 from symdh.frames.assign import assign_frames
 from symdh.frames.settle import Snap
 from symdh.mechanism import JointAxis, Mechanism, ToolFrame, Vector
@@ -277,7 +276,5 @@ def _number(e: Expr) -> Expr:
 
 
 def _rounded(value: Float) -> Rational:
-    if not value.is_finite:
-        raise UnsupportedError("a parameter of this chain is no finite number")
     scale = Integer(10) ** PLACES
     return Rational(round(value * scale), scale)

@@ -229,8 +229,7 @@ def _needs_hint(entries: Sequence[JudgedEntry]) -> bool:
 
 def _tells(entry: Entry) -> bool:
     """Say whether an entry is so special that it is no accident when a slip gives it."""
-    if entry.value is None:
-        return False
+    assert entry.value is not None  # a blank is no mistake
     return bool(entry.value.free_symbols) or sum(map(str.isdigit, entry.text)) > 2
 
 
