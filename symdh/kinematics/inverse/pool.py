@@ -155,9 +155,7 @@ class Pool:
         parents: tuple[Equation, ...] = (),
         combination: Combination | None = None,
     ) -> Equation | None:
-        """Add an equation unless it is there, empty, or uses what the task does not give."""
-        if not element:
-            return None
+        """Add an equation, which is not empty, unless it is there or uses what is not given."""
         if not self.is_given(element):
             return None
         key = frozenset(element.monic().terms())

@@ -12,7 +12,7 @@ _MARGIN = 2e-4
 
 
 def real_angles(coefficients: Mapping[int, complex]) -> list[float]:
-    """Return the angles y in (-pi, pi] with ``sum f_k e^(i k y) = 0``, sorted.
+    """Return the angles y in [-pi, pi) with ``sum f_k e^(i k y) = 0``, sorted.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def real_angles(coefficients: Mapping[int, complex]) -> list[float]:
         size = abs(root)
         if size and abs(size - 1) < _MARGIN:
             angles.append(_polished(coefficients, phase(root)))
-    return sorted(-pi if angle == -pi else angle for angle in angles)
+    return sorted(angles)
 
 
 def _roots(polynomial: list[complex]) -> list[complex]:

@@ -123,9 +123,9 @@ def _differences(state: State, first: Linear, second: Linear) -> Iterator[Elemen
         if not ring.reduced(a_1 * b_2 - a_2 * b_1):
             yield ring.reduced(a_1 * c_2 - a_2 * c_1 if a_1 and a_2 else b_1 * c_2 - b_2 * c_1)
         return
-    p, q = (a_1, a_2) if a_1 or a_2 else (b_1, b_2)
-    if p and q:
-        yield ring.reduced(p * c_2 - q * c_1)
+    # Both hold x, so that the one coefficient that there is stands in both.
+    p, q = (a_1, a_2) if a_1 else (b_1, b_2)
+    yield ring.reduced(p * c_2 - q * c_1)
 
 
 def _scales(state: State, first: Linear, second: Linear) -> tuple[Element, ...]:

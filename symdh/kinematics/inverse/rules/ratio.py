@@ -98,7 +98,6 @@ def _parted(state: State, view: View) -> _Parted | None:
             return None
         factor = own
         number = number + coefficient
-    if factor is None:
-        return None
+    assert factor is not None  # there are open unknowns in it
     whole = tuple(factor.get(k, 0) for k in range(len(ring.letters)))
     return _Parted(view.equation, number, whole, ring.ring.from_dict(without))

@@ -1,7 +1,7 @@
 """One equation in one slide: linear ``A q + C = 0``, or quadratic ``A q^2 + B q + C = 0``.
 
 Linear: one value, none where A is zero. Quadratic: two values, one where the root is zero, none
-where the radicand is negative.
+where the radicand is negative; any value where A and B are zero, as with a twist of that value.
 """
 
 from __future__ import annotations
@@ -27,10 +27,7 @@ def slide_candidates(state: State) -> Iterator[Candidate]:
         (x,) = open_now
         if state.ring.is_angle(x):
             continue
-        parts = powers_of_slide(state, view.element, x)
-        if parts is None:
-            continue
-        c, b, a = parts
+        c, b, a = powers_of_slide(state, view.element, x)
         if a:
             if all(coefficient < 0 for coefficient in a.values()):
                 a, b, c = -a, -b, -c
@@ -51,12 +48,14 @@ def slide_candidates(state: State) -> Iterator[Candidate]:
         yield Candidate(cost, Step(x, Rule.SLIDE, (view.used,), coefficients, others))
 
 
-def powers_of_slide(state: State, element: Element, x: int) -> list[Element] | None:
-    """Return the coefficients of 1, q and q^2; None where there are higher powers."""
+def powers_of_slide(state: State, element: Element, x: int) -> list[Element]:
+    """Return the coefficients of 1, q and q^2; an open slide has no higher powers.
+
+    The entries of a matrix equation are linear in each slide, which stands in one row of the chain.
+    Only sums of their squares are not; they are combined with nothing that holds a slide.
+    """
     k = state.ring.slide_gen(x)
     parts: list[dict[tuple[int, ...], object]] = [{}, {}, {}]
     for powers, coefficient in element.terms():
-        if powers[k] > 2:
-            return None
         parts[powers[k]][(*powers[:k], 0, *powers[k + 1 :])] = coefficient
     return [state.without_zero(state.ring.ring.from_dict(part)) for part in parts]

@@ -48,7 +48,7 @@ def _linear(state: State, x: int, *, constant: bool) -> list[Linear]:
         open_now = state.open(view.support)
         if x in open_now and 1 < len(open_now) <= _MOST_OPEN:
             parts = powers_of_slide(state, view.element, x)
-            if parts is None or parts[2] or not parts[1]:
+            if parts[2] or not parts[1]:
                 continue
             if state.ring.is_constant(parts[1]) or not constant:
                 found.append((parts[1], parts[0], view))
