@@ -7,6 +7,7 @@ import math
 import os
 import random
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -34,24 +35,29 @@ from inverse_checks import (
 )
 from oracle import Arm, read_arm
 from random_arms import parallel_arm, short_arm, wrist_arm
-from sympy import Float
+from sympy import Expr, Float, Integer, pi
 
 import symdh
 from symdh.derivation.inverse import Solved, inverse_document
 from symdh.derivation.inverse.known_parts import is_told
 from symdh.errors import LimitError, UnsupportedError
-from symdh.kinematics.inverse import clock
+from symdh.kinematics.inverse import clock, fallback, inverse, roots
 from symdh.kinematics.inverse.branches import Branches, branches_of
+from symdh.kinematics.inverse.check import tried
+from symdh.kinematics.inverse.evaluate import Evaluator
 from symdh.kinematics.inverse.fallback import nominal
-from symdh.kinematics.inverse.inverse import Method, inverse_kinematics
+from symdh.kinematics.inverse.goal import goal_of
+from symdh.kinematics.inverse.inverse import InverseKinematics, Method, inverse_kinematics
 from symdh.kinematics.inverse.pool import Combination
-from symdh.kinematics.inverse.roots import real_angles
+from symdh.kinematics.inverse.refine import refined
+from symdh.kinematics.inverse.roots import _roots, real_angles
 from symdh.kinematics.inverse.search import closed_form
 from symdh.kinematics.inverse.solution import ClosedForm, Rule, Tried
 from symdh.kinematics.inverse.task import Kind
 from symdh.render.inverse_json import inverse_json
 from symdh.render.latex import render_latex
 from symdh.render.terminal import render_chapters
+from symdh.robot import Limits
 from symdh.table import parse_expression
 from tools import require_tool
 
@@ -287,6 +293,16 @@ def test_base_and_tool_are_part_of_the_arm(name: str) -> None:
             assert missed_by(arm, found, answers, goal) < 1e-9 * reach_of(arm)
         for answer in answers:
             assert answer.within_limits == (abs(answer.q[0]) <= math.pi / 2 + 1e-6)
+
+
+def test_a_limit_that_is_no_number_is_none() -> None:
+    """A limit from Python may be a formula: of known lengths it holds, of others it is none."""
+    robot = symdh.load(DATA / "tables" / "planar_2r.yaml")
+    for half, within in ((symbol("a1") / 5, [False, False]), (symbol("L"), [True, True])):
+        bound = replace(robot, limits={symbol("theta2"): Limits(-half, half)})
+        answers = inverse_kinematics(bound).solver().solve(at(0.6, 0.3))  # a_1 is 0.5
+        assert all(abs(answer.q[1]) > 0.1 for answer in answers)
+        assert [answer.within_limits for answer in answers] == within
 
 
 ODD_SLIDES = {
@@ -580,6 +596,360 @@ def test_an_impossible_task_is_refused() -> None:
         inverse_kinematics(puma, "roll")
 
 
+# ---------------------------------------------------------------- what degenerates, and what is odd
+
+
+def assert_solved(text: str, task: str | None = None, count: int = 10) -> InverseKinematics:
+    """Derive a closed form and let the oracle say that random poses are solved."""
+    arm, found = read_arm(text), inverse_kinematics(symdh.loads(text), task)
+    assert found.method is Method.CLOSED_FORM
+    solver = found.solver()
+    q = arm.seeded_poses(count, seed=12)
+    for truth, goal in zip(q, pose_of(arm, q), strict=True):
+        answers = solver.solve(goal.tolist())
+        assert min(apart(arm, answer.q, truth) for answer in answers) < 1e-6
+        assert missed_by(arm, found, answers, goal) < 1e-9 * reach_of(arm)
+    return found
+
+
+def at(x: float, y: float, z: float = 0.0) -> list[list[float]]:
+    """A goal at a point; the orientation is that of the base."""
+    return [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, y], [0.0, 0.0, 1.0, z]]
+
+
+def test_turns_that_make_a_right_angle_together_have_no_letter() -> None:
+    """30 deg of the base and 60 deg of the row are 90 deg: no cosine of their sum is in a step."""
+    found = assert_solved(
+        """
+name: wall
+convention: modified
+units: {angle: deg, length: m}
+joints:
+  - {theta: theta1, d: 0.1, a: 0.3, alpha: 60 deg}
+  - {theta: theta2, d: 0.2, a: 0.4, alpha: 0}
+base: [Rx(30 deg), Tx(0.3)]
+tool: [Tx(0.1), Tz(0.2)]
+""",
+        "x z",
+    )
+    assert found.form is not None
+    assert set(found.form.ring.constants) <= {pi / 6, pi / 3}
+
+
+def test_a_slide_may_have_a_gear_and_a_twist_any_angle() -> None:
+    """d = q_2/2: the arm goes out half as far; the twist is a number of radians, no part of pi."""
+    text = """
+name: geared
+convention: standard
+units: {angle: rad, length: m}
+joints:
+  - {theta: theta1, d: 0.3, a: 0.2, alpha: beta}
+  - {theta: 0, d: q2/2, a: 0.1, alpha: 0}
+values: {beta: 0.3}
+"""
+    found = assert_solved(text)
+    # Only the slide is along z before the twist: p_z = 0.3 + cos(0.3) q_2/2.
+    (first, *_) = found.solver().solve(pose_of(read_arm(text), np.array([0.4, 0.5])).tolist())
+    assert 0.3 + math.cos(0.3) * first.q[1] / 2 == pytest.approx(0.3 + math.cos(0.3) / 4)
+
+
+def test_a_wrist_that_cannot_come_to_the_first_axis_has_no_answer_there() -> None:
+    """PUMA: the wrist stays d_3 = 0.15 m off the axis of joint 1."""
+    assert solver_of(DATA / "tables" / "puma560.yaml").solve(at(0.0, 0.0, 0.9)) == []
+
+
+def test_a_goal_just_out_of_reach_is_tried_hard_and_has_no_answer() -> None:
+    """The arm reaches 0.5 + 0.4 m; a few micrometres farther no starting point helps."""
+    table = DATA / "tables" / "planar_2r.yaml"
+    reach = reach_of(arm_of(table))
+    assert len(solver_of(table).solve(at(reach * (1 - 4e-6), 0.0))) == 2
+    assert solver_of(table).solve(at(reach * (1 + 4e-6), 0.0)) == []
+
+
+BESIDE = """
+name: beside
+convention: standard
+units: {angle: deg, length: m}
+joints:
+  - {theta: theta1, d: 0, a: 0.3, alpha: 0}
+  - {theta: 40 deg, d: 0, a: 0.1, alpha: beta}
+  - {theta: 0, d: q3, a: 0.3, alpha: 0}
+"""
+SINE, COSINE = math.sin(math.radians(40)), math.cos(math.radians(40))
+#: How far the hand is from the first axis where q_3 is 0: sides of 0.3 and 0.4 m, 140 deg between.
+FAR = math.sqrt(0.25 + 0.24 * COSINE)
+
+
+def test_a_slide_behind_a_twist_is_out_or_back() -> None:
+    """beta = 90 deg: p = (0.3 + 0.4 c + s q_3, 0.4 s - c q_3) for c and s of 40 deg, then turned.
+
+    So its square is that for q_3 = 0 and 0.6 s q_3 + q_3^2.
+    """
+    found = inverse_kinematics(symdh.loads(BESIDE), "x y")
+    assert found.form is not None
+    assert found.form.steps[0].rule is Rule.SLIDE_SQUARE
+    solver = found.solver({symbol("beta"): pi / 2})
+    answers = solver.solve(at(0.0, FAR))
+    assert sorted(answer.q[1] for answer in answers) == pytest.approx([-0.6 * SINE, 0.0])
+    least = math.sqrt(FAR**2 - (0.3 * SINE) ** 2)
+    assert len(solver.solve(at(0.0, least + 1e-3))) == 2
+    assert solver.solve(at(0.0, least - 1e-3)) == []
+
+
+@pytest.mark.parametrize("beta", [Integer(0), pi])
+def test_a_slide_that_changes_nothing_that_is_asked_for_is_free(beta: Expr) -> None:
+    """Without the twist the slide is along z: on the circle any value will do.
+
+    Its quadratic equation is then 0 q^2 + 0 q + C = 0; it had no answer at all once.
+    """
+    solver = inverse_kinematics(symdh.loads(BESIDE), "x y").solver({symbol("beta"): beta})
+    (answer,) = solver.solve(at(0.3 + 0.4 * COSINE, 0.4 * SINE), [0.0, 0.7])
+    assert answer.q == pytest.approx((0.0, 0.7))
+    assert answer.free == (symbol("q3"),)
+
+
+def test_off_the_circle_a_free_slide_does_not_help() -> None:
+    solver = inverse_kinematics(symdh.loads(BESIDE), "x y").solver({symbol("beta"): Integer(0)})
+    assert solver.solve(at(0.3, 0.5)) == []
+
+
+def test_a_quadratic_without_its_square_is_linear() -> None:
+    """0 q^2 + 2 q - 1 = 0 has the one value 1/2; no arm is known that comes to such steps."""
+    form = inverse_kinematics(symdh.loads(BESIDE), "x y").form
+    assert form is not None
+    slide, *others = form.steps
+    assert slide.rule is Rule.SLIDE_SQUARE
+    ring = form.ring
+    linear = replace(slide, coefficients=(ring.zero, 2 * ring.one, -ring.one))
+    evaluator = Evaluator(replace(form, steps=(linear, *others)), {symbol("beta"): pi / 2}, {})
+    assert [proposal.q[1] for proposal in evaluator.proposals(at(0.0, 0.5), [0.0, 0.0])] == [0.5]
+
+
+def test_steps_need_numbers_for_all_letters() -> None:
+    form = inverse_kinematics(symdh.loads(BESIDE)).form
+    assert form is not None
+    with pytest.raises(UnsupportedError, match="beta has no value: put it under 'values:'"):
+        Evaluator(form, {}, {})
+
+
+def test_newtons_method_stops_where_the_arm_is_straight() -> None:
+    """theta_2 = 0: no joint moves the hand towards the base, and the values stay what they are."""
+    rows = "rows: [[q1, 0, 1, 0], [q2, 0, 1, 0]]"
+    text = f"{{name: two, convention: standard, columns: [theta, d, a, alpha], {rows}}}"
+    found = inverse_kinematics(symdh.loads(text))
+    judge = found.solver().judge
+    q, error = refined(judge.chain, found.task, at(1.5, 0.0), [0.0, 0.0], [0, 1], 9)
+    assert (q, error) == ([0.0, 0.0], 0.5)
+
+
+def test_a_constant_has_no_real_angles() -> None:
+    assert real_angles({}) == []
+    assert real_angles({1: 0j, 0: 0j, -1: 0j}) == []
+    assert real_angles({0: 2.0 + 0j}) == []
+    # 1e-20 beside 2 is rounding.
+    assert real_angles({1: 1e-20 + 0j, 0: 2.0 + 0j, -1: 1e-20 + 0j}) == []
+
+
+def test_roots_that_fall_together_on_the_way_part_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """z^2 - 3 z + 2 = (z - 1)(z - 2), from two starting points that are one."""
+    monkeypatch.setattr(roots, "exp", lambda z: 1.0 + 0j)
+    assert sorted(x.real for x in _roots([2 + 0j, -3 + 0j, 1 + 0j])) == pytest.approx([1, 2])
+
+
+def test_an_orientation_may_be_asked_for_by_name() -> None:
+    """The position of the goal is nothing that is given: any will do."""
+    table = DATA / "tables" / "puma560.yaml"
+    robot, arm = symdh.load(table), arm_of(table)
+    found = inverse_kinematics(robot, "orientation", [symbol(f"theta{k}") for k in (1, 2, 3)])
+    assert (found.task.kind, found.task.named) == (Kind.ORIENTATION, True)
+    assert found.method is Method.CLOSED_FORM
+    truth = np.array([0.0, 0.0, 0.0, 0.3, 0.6, -0.8])
+    goal = pose_of(arm, truth)
+    goal[:3, 3] = 9.0
+    answers = found.solver().solve(goal.tolist())
+    assert len(answers) == 2
+    assert min(apart(arm, answer.q, truth) for answer in answers) < 1e-9
+    assert missed_by(arm, found, answers, goal) < 1e-9
+
+
+def test_two_equations_may_lose_an_angle_that_stands_alike_in_both() -> None:
+    """The difference is linear in the other angle, and is used like any other equation."""
+    assert_solved(short_arm(1641))
+
+
+# ---------------------------------------------------------------- what numbers a goal is made of
+
+
+PLANE, POSE = DATA / "tables" / "planar_3r.yaml", DATA / "tables" / "puma560.yaml"
+
+
+def test_a_goal_is_a_pose_or_the_coordinates_of_the_task() -> None:
+    task = derived(PLANE)[0].task
+    c, s = math.cos(0.3), math.sin(0.3)
+    expected = ((c, -s, 0.0, 0.5), (s, c, 0.0, 0.2), (0.0, 0.0, 1.0, 0.0))
+    assert goal_of(task, [0.5, 0.2, 0.3]) == expected
+    rows = [x for row in expected for x in row]
+    assert goal_of(task, rows) == goal_of(task, [*rows, 0, 0, 0, 1]) == expected
+    assert goal_of(derived(POSE)[0].task, rows) == expected
+
+
+@pytest.mark.parametrize(
+    ("table", "numbers", "message"),
+    [
+        (PLANE, [0.5, math.inf, 0.3], "a pose needs finite numbers"),
+        (PLANE, [0.5, 0.2], r"is 3 numbers \(the position x y and the angle phi\), 12 .* are 2"),
+        (POSE, [0.5, 0.2, 0.3], r"of this arm is 12 numbers \(three rows .* are 3"),
+        (POSE, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1], "the last row of a pose is 0 0"),
+        (POSE, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0], "are a reflection, no rotation"),
+        (POSE, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1.1, 0], "miss being orthonormal by 0.2"),
+    ],
+)
+def test_numbers_that_are_no_goal_are_refused(
+    table: Path, numbers: list[float], message: str
+) -> None:
+    with pytest.raises(UnsupportedError, match=message):
+        goal_of(derived(table)[0].task, numbers)
+
+
+def test_an_angle_is_about_the_axis_of_a_plane_x_y() -> None:
+    text = PLANE.read_text() + "base: [Rx(90 deg)]\n"
+    found = inverse_kinematics(symdh.loads(text), "x z phi")
+    with pytest.raises(UnsupportedError, match="an angle needs a plane x y; give the pose"):
+        goal_of(found.task, [0.5, 0.2, 0.3])
+
+
+# ---------------------------------------------------------------- lengths that may not be real
+
+
+ROOT = """
+name: two
+convention: standard
+units: {angle: deg, length: m}
+joints:
+  - {theta: theta1, d: 0, a: sqrt(L - 1), alpha: 0}
+  - {theta: theta2, d: 0, a: 0.5, alpha: 0}
+"""
+
+
+@pytest.mark.parametrize(("length", "value"), [("L - 1", 1.25), ("L - 9", 9.25)])
+def test_a_length_under_a_root_is_drawn_so_that_it_is_real(length: str, value: float) -> None:
+    """What no value is given for is tried out with numbers; not all of them make an arm."""
+    text = ROOT.replace("L - 1", length)
+    arm = read_arm(text.replace(f"sqrt({length})", "0.5"))
+    found = inverse_kinematics(symdh.loads(text))
+    assert found.method is Method.CLOSED_FORM
+    assert branches_of(found.form).steps[0].names == ("right-hand solution", "left-hand solution")
+    truth = np.array([0.3, 0.8])
+    answers = found.solver({symbol("L"): Float(value)}).solve(pose_of(arm, truth).tolist())
+    assert len(answers) == 2
+    assert min(apart(arm, answer.q, truth) for answer in answers) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (("values: {}", "values: {L: 0.5}"), r"these values make sqrt\(L - 1\) equal to sqrt"),
+        (
+            ("L - 1", "L - 1e6"),
+            r"no numbers were found that make sqrt\(L - 1000000\) a real",
+        ),
+    ],
+)
+def test_an_arm_that_is_not_real_is_refused(change: tuple[str, str], message: str) -> None:
+    text = (ROOT + "values: {}\n").replace(*change)
+    with pytest.raises(UnsupportedError, match=message):
+        inverse_kinematics(symdh.loads(text))
+
+
+def test_a_length_that_the_users_number_makes_complex_is_refused() -> None:
+    found = inverse_kinematics(symdh.loads(ROOT))
+    with pytest.raises(UnsupportedError, match="is not a real number"):
+        found.solver({symbol("L"): Float(0.5)})
+
+
+# ---------------------------------------------------------------- what there is to hold
+
+
+GENERAL = "".join(
+    f"  - {{theta: theta{k}, d: 0.{k}, a: 0.{k}, alpha: {9 * k} deg}}\n" for k in range(1, 9)
+)
+
+
+def of_general_rows(count: int) -> symdh.Robot:
+    rows = "".join(GENERAL.splitlines(keepends=True)[:count])
+    return symdh.loads(f"name: odd\nconvention: standard\nunits: {{angle: deg}}\njoints:\n{rows}")
+
+
+@pytest.mark.parametrize("seconds", [0.0, 0.1])
+def test_without_time_no_joint_to_hold_is_named(seconds: float) -> None:
+    with pytest.raises(UnsupportedError, match=r"hold one of them with --lock NAME \(.*\)$"):
+        inverse_kinematics(of_general_rows(7), seconds=seconds)
+
+
+def test_eight_joints_need_two_locks() -> None:
+    with pytest.raises(UnsupportedError, match=r"six numbers: hold 2 of them with --lock NAME"):
+        inverse_kinematics(of_general_rows(8))
+    with pytest.raises(UnsupportedError, match="odd has 8 joints that move; six can be solved"):
+        closed_form(of_general_rows(8))
+
+
+def test_where_no_joint_to_hold_leaves_a_closed_form_none_is_named(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(inverse, "closed_form", lambda *given, **named: Tried((), ()))
+    with pytest.raises(UnsupportedError, match=r"hold one of them with --lock NAME \(.*\)$"):
+        inverse_kinematics(of_general_rows(7))
+
+
+def test_a_joint_with_a_gear_is_the_one_to_hold() -> None:
+    """Only with theta_1 held does each joint that is left turn by its variable."""
+    text = (DATA / "tables" / "kuka_iiwa7.yaml").read_text()
+    geared = symdh.loads(text.replace("theta: theta1,", "theta: 2*theta1,"))
+    with pytest.raises(UnsupportedError, match=r"with --lock theta1 there is a closed form$"):
+        inverse_kinematics(geared)
+
+
+def test_a_joint_that_is_none_cannot_be_held() -> None:
+    with pytest.raises(UnsupportedError, match="theta9 is no joint variable of puma560; these are"):
+        inverse_kinematics(symdh.load(POSE), None, [symbol("theta9")])
+
+
+# ---------------------------------------------------------------- where nothing is found
+
+
+@pytest.mark.parametrize(("name", "solutions"), [("planar_2r", 2), ("puma560", 8)])
+def test_least_squares_come_last(
+    name: str, solutions: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With no closed form, of the arm or of a part, random starts are left; they are good ones."""
+    monkeypatch.setattr(inverse, "closed_form", lambda *given, **named: Tried((), ()))
+    table = DATA / "tables" / f"{name}.yaml"
+    found, arm = inverse_kinematics(symdh.load(table)), arm_of(table)
+    assert (found.method, found.form, found.searched) == (Method.LEAST_SQUARES, None, None)
+    assert "damped least squares" in render_chapters(inverse_document(found).chapters, width=2000)
+    truth = arm.seeded_poses(1, seed=5)[0]
+    goal = pose_of(arm, truth)
+    for seed in (None, list(truth)):
+        answers = found.solver().solve(goal.tolist(), seed)
+        assert len(answers) == solutions
+        assert min(apart(arm, answer.q, truth) for answer in answers) < 1e-6
+        assert missed_by(arm, found, answers, goal) < 1e-9 * reach_of(arm)
+    assert apart(arm, answers[0].q, truth) < 1e-6  # nearest to the seed
+
+
+def test_trials_say_how_many_were_found_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    done: list[int] = []
+    closed = tried(derived(DATA / "tables" / "planar_2r.yaml")[0], 7, progress=done.append)
+    assert done == [1, 2, 3, 4, 5, 6, 7]
+    assert (closed.found, closed.missed, closed.counts) == (7, [], {2: 7})
+    monkeypatch.setattr(inverse, "closed_form", lambda *given, **named: Tried((), ()))
+    monkeypatch.setattr(fallback, "_STARTS", 0)
+    nothing = tried(inverse_kinematics(symdh.load(DATA / "tables" / "planar_2r.yaml")), 7)
+    assert (nothing.poses, nothing.found, nothing.counts) == (7, 0, {0: 7})
+    assert len(nothing.missed) == 5  # a few of them
+    assert nothing.worst == 0
+
+
 # ---------------------------------------------------------------- what is told
 
 
@@ -777,6 +1147,52 @@ def test_a_slide_is_forward_where_its_d_is_positive(name: str) -> None:
     branches, found = names_and_poses(name, 10)
     for taken, q in found:
         assert ("slide 3 forward" in branches.names(taken, q)) == (q[2] > 0)
+
+
+def names_of(form: ClosedForm | Tried) -> set[str]:
+    assert isinstance(form, ClosedForm)
+    steps = branches_of(form).steps
+    return {name for step in steps if step.feature is not None for name in step.feature.names}
+
+
+def test_a_slide_whose_sign_hangs_on_a_letter_is_not_called_forward() -> None:
+    """d = d_3 + h: without a number for h nobody can say which d_3 is out along the axis."""
+    text = (DATA / "tables" / "spherical_rrp.yaml").read_text().replace("d: d3", "d: d3 + h")
+    assert not {name for name in names_of(closed_form(symdh.loads(text))) if "slide" in name}
+    known = symdh.loads(text.replace("values: {", "values: {h: -2, "))
+    assert names_of(closed_form(known)) >= {"slide 3 forward", "slide 3 backward"}
+    # d is 0.5, and d_3 itself 2.5; and -0.5 and 1.5 for the other value.
+    form = closed_form(known)
+    assert isinstance(form, ClosedForm)
+    branches = branches_of(form)
+    solver = inverse_kinematics(known).solver()
+    for answer in solver.solve(solver.judge.chain.pose((0.3, 0.8, 2.5))):
+        forward = answer.q[2] - 2 > 0
+        assert ("slide 3 forward" in branches.names(answer.branches, answer.q)) == forward
+
+
+@pytest.mark.parametrize(("twist", "named"), [(90, True), (40, False)])
+def test_an_elbow_is_up_where_its_axis_is_level(twist: int, named: bool) -> None:
+    """Axes 2 and 3 at 40 deg to the first: there is no up or left that the elbow could be."""
+    text = f"""
+name: tilted
+convention: standard
+units: {{angle: deg, length: m}}
+joints:
+  - {{theta: theta1, d: 0.3, a: 0.2, alpha: {twist} deg}}
+  - {{theta: theta2, d: 0, a: 0.4, alpha: 0}}
+  - {{theta: theta3, d: 0, a: 0.3, alpha: 0}}
+"""
+    names = names_of(closed_form(symdh.loads(text), "x y z"))
+    assert any("elbow" in name for name in names) == named
+
+
+def test_an_elbow_that_is_held_is_neither_up_nor_down() -> None:
+    arm = symdh.load(DATA / "tables" / "elbow_3r.yaml")
+    assert any("elbow" in name for name in names_of(closed_form(arm, "x y z")))
+    assert not any(
+        "elbow" in name for name in names_of(closed_form(arm, "x z", [symbol("theta3")]))
+    )
 
 
 QUARTIC = """

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sympy import Expr, Float, Symbol
 
+from symdh.kinematics.inverse.lengths import drawn_lengths
 from symdh.kinematics.inverse.numeric import Solver
 from symdh.kinematics.inverse.posture import Feature, Skeleton, features
 from symdh.kinematics.inverse.solution import ClosedForm, Rule, Step
@@ -97,7 +98,8 @@ def branches_of(form: ClosedForm, values: Mapping[Symbol, Expr] | None = None) -
     drawn = random.Random(12)
     free = [symbol for symbol in given.parameters if symbol not in known]
     numbers = {s: v for s, v in known.items() if s in given.parameters}
-    numbers |= {symbol: Float(drawn.uniform(0.4, 1.6), 17) for symbol in free}
+    lengths = drawn_lengths(replace(given, values=numbers), free, drawn, 0.4, 1.6)
+    numbers |= {symbol: Float(x, 17) for symbol, x in lengths.items()}
     # At zero, where locked joints are by default, an arm may be in a special position.
     held = {v: known.get(v, Float(drawn.uniform(0.4, 1.6), 17)) for v in form.arm.locked}
     if not form.branching:

@@ -170,7 +170,7 @@ class Evaluator:
             case Rule.SLIDE:
                 return self._slide(step, trial, seed)
             case Rule.SLIDE_SQUARE:
-                return self._slide_square(step, trial), False
+                return self._slide_square(step, trial, seed)
             case Rule.PAIR:
                 return self._pair(step, trial, seed)
             case Rule.HALF_ANGLE:
@@ -248,15 +248,23 @@ class Evaluator:
             return [self._seeded(step.unknown, seed)], True
         return [best], False
 
-    def _slide_square(self, step: Step, trial: _Trial) -> list[float]:
+    def _slide_square(
+        self, step: Step, trial: _Trial, seed: Sequence[float]
+    ) -> tuple[list[float], bool]:
         a, b, c = (self._value(element, trial) for element in step.coefficients)
+        size_a, _, size_c = (self._size(element) for element in step.coefficients)
+        if abs(a) <= _FREE * size_a and abs(b) <= _FREE * sqrt(size_a * size_c):
+            # The slide changes nothing that is asked for.
+            if abs(c) > _BOUNDARY * size_c:
+                return [], False
+            return [self._seeded(step.unknown, seed)], True
         if not a:
-            return [-c / b] if b else []
+            return [-c / b], False
         radicand = b * b - 4 * a * c
-        if radicand < -_BOUNDARY * (b * b + abs(4 * a) * self._size(step.coefficients[2])):
-            return []
+        if radicand < -_BOUNDARY * (b * b + abs(4 * a) * size_c):
+            return [], False
         root = sqrt(max(radicand, 0.0))
-        return [(-b + root) / (2 * a), (-b - root) / (2 * a)]
+        return [(-b + root) / (2 * a), (-b - root) / (2 * a)], False
 
     def _half_angle(self, step: Step, trial: _Trial) -> list[float]:
         letters = trial.letters

@@ -10,6 +10,7 @@ from math import cos, sin, sqrt
 from sympy import Symbol
 
 from symdh.kinematics.chain import link_word
+from symdh.kinematics.inverse.lengths import drawn_lengths
 from symdh.robot import Axis, Convention, JointType, Motion, MotionKind, Robot
 
 Vector = tuple[float, float, float]
@@ -56,13 +57,16 @@ class Axes:
     ----------
     robot : Robot
         Lengths without a value are drawn at random.
+
+    Raises
+    ------
+    UnsupportedError
+        When a length is no real number.
     """
 
     def __init__(self, robot: Robot) -> None:
-        drawn = random.Random(3)
-        numbers = {s: float(v) for s, v in robot.values.items() if s in robot.parameters}
-        for symbol in robot.parameters:
-            numbers.setdefault(symbol, drawn.uniform(0.4, 1.6))
+        numbers = drawn_lengths(robot, robot.parameters, random.Random(3), 0.4, 1.6)
+        numbers |= {s: float(v) for s, v in robot.values.items() if s in robot.parameters}
         # The z axis that the joint turns about stands before its own rotation.
         self._skip = 0 if robot.convention is Convention.STANDARD else 2
         self._joints = robot.joints

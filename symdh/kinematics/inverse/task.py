@@ -11,6 +11,7 @@ from enum import Enum
 from sympy import Symbol
 
 from symdh.errors import UnsupportedError
+from symdh.kinematics.inverse.lengths import drawn_lengths
 from symdh.kinematics.inverse.lines import Line, joint_lines
 from symdh.kinematics.inverse.numeric_chain import NumericChain
 from symdh.kinematics.inverse.ring import ROTATION_NAMES, U_NAMES
@@ -201,9 +202,9 @@ def _random_values(robot: Robot, seed: int) -> list[float]:
 
 
 def _random_lengths(robot: Robot) -> dict[str, float]:
-    drawn = random.Random(11)
     free = [s for s in robot.parameters if s not in robot.values]
-    return {symbol.name: drawn.uniform(0.3, 1.5) for symbol in free}
+    numbers = drawn_lengths(robot, free, random.Random(11), 0.3, 1.5)
+    return {symbol.name: number for symbol, number in numbers.items()}
 
 
 def _parallel(lines: Sequence[Line]) -> bool:
