@@ -25,8 +25,12 @@ from symdh.codegen import TARGETS, GeneratedFile, Target, generate
 from symdh.codegen.inverse import found as search
 from symdh.codegen.inverse.breaking import broken, broken_value
 from symdh.codegen.inverse.lowering import inverse_program
-from symdh.codegen.inverse.program import Compute, Program, Propose, Solve
+from symdh.codegen.inverse.program import Compute, Kind, Program, Propose, Solve
+from symdh.codegen.inverse.steps import KINDS
+from symdh.derivation.inverse.steps import RULES
 from symdh.kinematics.inverse.inverse import inverse_kinematics
+from symdh.kinematics.inverse.solution import Rule
+from symdh.templating.catalogue import shipped
 from tools import new_folder, require_tool
 
 DATA = Path(__file__).parent / "data"
@@ -611,3 +615,20 @@ def test_sanitizers_have_nothing_to_say(
     ran = subprocess.run([tmp_path / "driver"], capture_output=True, text=True, check=False)
     assert ran.returncode == 0, ran.stderr
     assert int(ran.stdout) > 400
+
+
+# ------------------------------------------------------------------------------- nothing forgotten
+
+
+def test_every_rule_is_told_and_becomes_code() -> None:
+    finding = set(Rule) - {Rule.NAMES, Rule.SUM}
+    assert set(RULES) == finding
+    assert set(KINDS) == finding
+
+
+def test_every_language_has_a_helper_for_every_kind_of_equation() -> None:
+    with_helpers = [t for t in shipped().values() if '"line" in ik.kinds' in t.text]
+    assert len(with_helpers) == 6
+    for template in with_helpers:
+        for kind in Kind:
+            assert f'"{kind.value}" in ik.kinds' in template.text, template.name

@@ -16,11 +16,11 @@ from symdh.codegen.labels import angle_label
 from symdh.codegen.lowering import Lowering
 from symdh.codegen.names import comment_text
 from symdh.codegen.routine import reachable
-from symdh.errors import UnsupportedError
 from symdh.kinematics.inverse.ring import Element, InverseRing
 from symdh.kinematics.inverse.solution import ClosedForm, Rule, Step
 
-_KINDS = {
+#: How code finds the unknown of a rule; names and sums of what is known find none.
+KINDS = {
     Rule.RATIO: Kind.LINE,
     Rule.SINE: Kind.LINE,
     Rule.COSINE: Kind.LINE,
@@ -80,13 +80,7 @@ class LoweredSteps:
 
 
 def lower_steps(form: ClosedForm, known: Mapping[Symbol, Expr]) -> LoweredSteps:
-    """Turn the steps of a closed form into nodes.
-
-    Raises
-    ------
-    UnsupportedError
-        When a step follows a rule that has no code.
-    """
+    """Turn the steps of a closed form into nodes."""
     return _Steps(form, known).lowered()
 
 
@@ -130,8 +124,6 @@ class _Steps:
         if step.rule is Rule.SUM:
             self._sum(step)
             return None
-        if step.rule not in _KINDS:
-            raise UnsupportedError(f"no code can be generated for the rule {step.rule.value}")
         return self._found(step)
 
     def _sum(self, step: Step) -> None:
@@ -159,7 +151,7 @@ class _Steps:
             self._name(node, name + label)
 
     def _found(self, step: Step) -> Found:
-        kind = _KINDS[step.rule]
+        kind = KINDS[step.rule]
         # Before the results have nodes: an equation cannot hold what it is to give.
         options = self._options(step, kind)
         ring, graph = self._ring, self._graph
@@ -197,22 +189,25 @@ class _Steps:
     def _equations(self, kind: Kind, elements: tuple[Element, ...]) -> Equations:
         graph, size = self._graph, self._polynomials.size
         nodes = tuple(self._polynomials.node(element) for element in elements)
-        if kind is Kind.PAIR:
-            first = graph.add(size(elements[0]), size(elements[1]))
-            second = graph.add(size(elements[3]), size(elements[4]))
-            return Equations(nodes, (graph.mul(first, second),))
-        if kind is Kind.SLIDE:
-            return Equations(nodes, (size(elements[0]),))
-        if kind is Kind.SQUARE:
-            return Equations(nodes, (size(elements[2]),))
-        both = graph.add(size(elements[0]), size(elements[1]))
-        return Equations(nodes, (both, graph.add(both, size(elements[2]))))
+        assert kind is not Kind.ROOTS, "these are eliminated first"
+        match kind:
+            case Kind.PAIR:
+                first = graph.add(size(elements[0]), size(elements[1]))
+                second = graph.add(size(elements[3]), size(elements[4]))
+                return Equations(nodes, (graph.mul(first, second),))
+            case Kind.SLIDE:
+                return Equations(nodes, (size(elements[0]),))
+            case Kind.SQUARE:
+                return Equations(nodes, (size(elements[2]),))
+            case Kind.LINE:
+                both = graph.add(size(elements[0]), size(elements[1]))
+                return Equations(nodes, (both, graph.add(both, size(elements[2]))))
 
     def _roots(self, step: Step) -> Equations:
         trigonometry = Trigonometry(self._polynomials)
         parts = tuple(trigonometry.of(e, step.unknown) for e in step.coefficients)
         scales = tuple(self._polynomials.node(scale) for scale in step.scales)
-        left = trigonometry.eliminated(parts, scales) if len(parts) == 6 else parts[0]
+        left = trigonometry.eliminated(parts, scales)
         return Equations(trigonometry.real(left, 2), ())
 
     def _label(self, unknown: int) -> str:

@@ -42,7 +42,8 @@ def _title(writer: Writer, step: Step) -> str:
     return f"the angles of joints {listed} together"
 
 
-_RULES: dict[Rule, Callable[[Telling], list[Block]]] = {
+#: How a rule is told; names and sums of what is known are told otherwise.
+RULES: dict[Rule, Callable[[Telling], list[Block]]] = {
     Rule.RATIO: ratio,
     Rule.SINE: arc,
     Rule.COSINE: arc,
@@ -62,4 +63,4 @@ def _blocks(telling: Telling) -> list[Block]:
     if step.rule is Rule.SUM:
         return known_sum(telling)
     told = [] if telling.is_told else origin(telling)
-    return [*told, *_RULES[step.rule](telling), *named_branches(telling)]
+    return [*told, *RULES[step.rule](telling), *named_branches(telling)]

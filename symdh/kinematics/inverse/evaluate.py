@@ -164,6 +164,7 @@ class Evaluator:
 
     def _solved(self, step: Step, trial: _Trial, seed: Sequence[float]) -> tuple[list[float], bool]:
         """Return the values of a step's unknown, and whether it is free."""
+        assert step.rule is not Rule.NAMES, "such a step finds no unknown"
         match step.rule:
             case Rule.SUM:
                 return [sum(sign * trial.values[part] for sign, part in step.parts)], False
@@ -175,7 +176,7 @@ class Evaluator:
                 return self._pair(step, trial, seed)
             case Rule.HALF_ANGLE:
                 return self._half_angle(step, trial), False
-            case _:
+            case Rule.RATIO | Rule.SINE | Rule.COSINE | Rule.SINE_COSINE:
                 return self._single(step, trial, seed)
 
     def _single(self, step: Step, trial: _Trial, seed: Sequence[float]) -> tuple[list[float], bool]:
@@ -280,7 +281,7 @@ class Evaluator:
             laurent(element, step.unknown, term, 0.5, 1j) for element in step.coefficients
         )
         scales = tuple(self._value(scale, trial) for scale in step.scales)
-        found = real_angles(eliminated(parts, scales) if len(parts) == 6 else parts[0])
+        found = real_angles(eliminated(parts, scales))
         # Real roots come in pairs: one that has no partner, or none at all, may hide a double one.
         self.doubtful |= not found or len(found) % 2 == 1
         return found

@@ -56,8 +56,8 @@ class Step:
     rule : Rule
     equations : tuple of Used
     coefficients : tuple of Element
-        A, B, C of one equation or of two. In a half-angle step they hold the unknown itself and
-        belong to the eliminated angle; a single element there is the equation that is left.
+        A, B, C of one equation or of two, in the order that the docstring of the rule gives. In a
+        half-angle step they hold the unknown itself and belong to the eliminated angle.
     alternatives : tuple of tuple of Element
         Coefficients of other equations that serve where the first degenerate.
     branches : int
