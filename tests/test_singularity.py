@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import json
 from collections.abc import Callable, Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 from conftest import Runner
 from oracle import Arm
-from sympy import Expr, Float, Rational, Symbol, cos, lambdify, pi, sin, symbols
+from sympy import Add, Expr, Float, Rational, Symbol, cos, lambdify, pi, sin, symbols
 from test_velocity import (
     TABLES,
     arm_of,
@@ -30,8 +31,9 @@ from symdh.derivation.singularity import chapter
 from symdh.derivation.style import Style
 from symdh.errors import DerivationError, LimitError, UnsupportedError
 from symdh.kinematics.frame import Frame
-from symdh.kinematics.singular import Factor, Kind, Singularities, determinant, singularities
+from symdh.kinematics.singular import Factor, Kind, Singularities, singularities
 from symdh.kinematics.singular.factors import HalfAngles
+from symdh.kinematics.singular.short_form import parallel_runs, short_form
 from symdh.kinematics.singular.solving import zeros
 from symdh.kinematics.singular.trig_ring import TrigRing
 from symdh.kinematics.velocity import jacobian
@@ -275,6 +277,69 @@ def test_zeros_of_one_joint(
     assert zeros(ring, element, THETA[2]) == expected
 
 
+@pytest.mark.parametrize(
+    ("make", "expected"),
+    [
+        # t = 1 and t = 2, 90 deg and that of cosine -3/5: (1 - t)(2 - t) = 2 - 3t + t^2.
+        (lambda c, s: (3 - 3 * s + c,), {"cos - 3*sin + 3": 1}),
+        # t = 1 and t = infinity: (1 - t)(1 + t^2)^-1 = (1 + c - s)/2.
+        (lambda c, s: (1 + c - s,), {"cos - sin + 1": 1}),
+        # (1 - t)(1 + t) and (1 - t)^2: the odd one of three finds its partner first.
+        (lambda c, s: (c, 1 - s), {"cos": 1, "sin - 1": 1}),
+        (lambda c, s: (s, s, 1 + c), {"sin": 2, "cos + 1": 1}),
+    ],
+)
+def test_factors_come_back_from_half_angles(
+    make: Callable[[Any, Any], Any], expected: dict[str, int]
+) -> None:
+    """By hand, with c = (1 - t^2)/(1 + t^2) and s = 2t/(1 + t^2)."""
+    assert half_factors(lambda halves, c, s: halves.pieces(make(c, s))) == expected
+
+
+def test_a_half_that_is_alone_comes_back_as_its_square() -> None:
+    """c vanishes at +-90 deg and 1 - s at 90 deg, twice: together at t = 1, once.
+
+    (1 - t)^2/(1 + t^2) = 1 - s vanishes there and nowhere else.
+    """
+    found = half_factors(lambda halves, c, s: halves.pieces([c]) & halves.pieces([1 - s]))
+    assert found == {"sin - 1": 1}
+
+
+def half_factors(make: Callable[[HalfAngles, Any, Any], Any]) -> dict[str, int]:
+    """The factors of a product in half angles of one joint, with their powers."""
+    ring = TrigRing(load(table_named("planar_2r")))
+    k = ring.angles.index(THETA[2])
+    halves = HalfAngles(ring)
+    pieces = make(halves, ring.ring.gens[2 * k], ring.ring.gens[2 * k + 1])
+    names = {cos(THETA[2]): Symbol("cos"), sin(THETA[2]): Symbol("sin")}
+    return {str(ring.expression(f).xreplace(names)): power for f, power in halves.factors(pieces)}
+
+
+def test_a_long_run_of_parallel_joints_is_read_as_single_functions() -> None:
+    rows = "".join(f"  - [q{i}, 0, a{i}, 0]\n" for i in (1, 2, 3, 4, 5))
+    robot = symdh.loads(table_text(rows))
+    ring = TrigRing(robot)
+    runs = parallel_runs(ring, robot)
+    assert [len(run.angles) for run in runs] == [5]
+    whole = Add(*robot.variables)
+    cosine, sine = ring.cosine_and_sine(whole)
+    assert len(cosine) == len(sine) == 16
+    assert short_form(ring, runs, cosine - 3 * sine) == cos(whole) - 3 * sin(whole)
+
+
+def test_one_turning_joint_between_slides() -> None:
+    """The slides are z_0 and z_2 = s_2 x_0 - c_2 z_0, in line where theta_2 is 0 or 180 deg.
+
+    That is no wrist, no elbow and no shoulder: there is one axis alone.
+    """
+    rows = "  - [0, d1, 0, 90]\n  - [q2, 0, a2, 90]\n  - [0, d3, 0, 0]\n"
+    found = singularities(symdh.loads(table_text(rows)))
+    (factor,) = found.factors or ()
+    assert abs(found.product) == abs(sin(Symbol("q2", real=True)))
+    assert set(factor.zeros) == {0, pi}
+    assert factor.meaning is None
+
+
 def test_lengths_may_be_sums_and_powers() -> None:
     found = singularities(symdh.loads(table_text("  - [q1, 0, L + 1, 0]\n  - [q2, 0, L**2, 0]\n")))
     L, q2 = Symbol("L", real=True), Symbol("q2", real=True)
@@ -343,15 +408,38 @@ def test_a_point_matters_where_positions_are_looked_at() -> None:
     assert len(factor.zeros) == 2
 
 
-def test_an_arm_over_the_limit_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(determinant, "MAX_TERMS", 3)
-    robot = load(table_named("pieper_generic"))
+@pytest.mark.parametrize(
+    ("module", "limit", "least", "name"),
+    [
+        ("determinant", "MAX_TERMS", 3, "pieper_generic"),
+        ("factors", "MAX_READ", 3, "pieper_generic"),
+        ("singularities", "MAX_ENTRIES", 20, "pieper_generic"),
+        # Seven columns for a rank of six: seven minors.
+        ("singularities", "MAX_MINORS", 6, "kuka_iiwa7"),
+    ],
+)
+def test_an_arm_over_the_limit_says_so(
+    module: str, limit: str, least: int, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # By its full name: the package has a function of that of the last module.
+    monkeypatch.setattr(import_module(f"symdh.kinematics.singular.{module}"), limit, least)
+    robot = load(table_named(name))
     found = singularities(robot)
     assert found.factors is None
     with pytest.raises(UnsupportedError, match="limit"):
         _ = found.product
     text = render_chapters([chapter(Style(robot), found)])
     assert "over symdh's limit" in " ".join(text.split())
+
+
+def test_too_many_alternatives_are_not_written_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The factors stand, and it is said that they are not all; see the same arm without a limit."""
+    monkeypatch.setattr("symdh.kinematics.singular.conditions.MAX_ALTERNATIVES", 1)
+    found = singularities(load(table_named("kuka_iiwa7")))
+    assert found.factors == found_for(table_named("kuka_iiwa7")).factors
+    assert (found.remaining, found.is_complete) == ((), False)
+    text = render_chapters([chapter(Style(found.robot), found)])
+    assert "too long to be written out" in " ".join(text.split())
 
 
 def test_many_joints_are_refused_at_once(run_symdh: Runner, tmp_path: Path) -> None:

@@ -237,6 +237,16 @@ def test_frames_that_are_not_there_and_what_is_too_large() -> None:
     assert "Velocity" not in [chapter.title for chapter in derive(long).chapters]
 
 
+def test_a_jacobian_of_many_joints_is_not_written_out() -> None:
+    """Parallel axes keep every entry short; it is the number of columns that is too large."""
+    for count, closed in ((20, True), (21, False)):
+        rows = "".join(f"  - [q{i}, 0, 1, 0]\n" for i in range(1, count + 1))
+        robot = symdh.loads(
+            f"name: snake\nconvention: standard\ncolumns: [theta, d, a, alpha]\nrows:\n{rows}"
+        )
+        assert has_closed_jacobian(robot, count, 0) == closed
+
+
 @pytest.mark.parametrize(
     ("text", "point"),
     [

@@ -75,7 +75,7 @@ class HalfAngles:
         self.ring = PolyRing(names or [Dummy("x")], QQ, lex)
 
     def pieces(self, factors: Iterable[Element]) -> Pieces:
-        """Take a product of elements of the trigonometric ring apart; none of them is zero.
+        """Take a product of elements of the trigonometric ring apart, reduced and not zero.
 
         Raises
         ------
@@ -127,8 +127,12 @@ class HalfAngles:
         return Pieces(Counter(self._split(numerator.primitive()[1])), infinite)
 
     def _numerator(self, factor: Element) -> tuple[Element, list[int]]:
-        """Return the numerator in half angles, and how often 1 + t_k^2 stands below it."""
-        gens, n = self.ring.gens, self.count
+        """Return the numerator in half angles, and how often 1 + t_k^2 stands below it.
+
+        It does not divide the numerator: with A c^m + B s c^(m-1) as the terms of highest degree,
+        all that is left of it at t = i is 2^m (A + iB), and A and B are real and not both zero.
+        """
+        n = self.count
         degrees = [max(powers[2 * k] + powers[2 * k + 1] for powers in factor) for k in range(n)]
         # Exponents of all cosines and sines, then of all t, then of the rest.
         wide = {(*p[: 2 * n], *(0,) * n, *p[2 * n :]): c for p, c in factor.terms()}
@@ -138,11 +142,7 @@ class HalfAngles:
                 wide = _exchanged(wide, (2 * k, 2 * k + 1), (2 * n + k,), image)
             if len(wide) > MAX_READ:
                 raise TooLargeError
-        total = self.ring.from_dict(_narrowed(self.ring, wide, 2 * n))
-        for k in range(n):
-            while degrees[k] and _vanishes_at_i(total, k):
-                total, degrees[k] = total.exquo(1 + gens[k] ** 2), degrees[k] - 1
-        return total, degrees
+        return self.ring.from_dict(_narrowed(self.ring, wide, 2 * n)), degrees
 
     def _split(self, polynomial: Element) -> Iterator[Element]:
         """Yield the factors of a primitive polynomial that are not constant."""
@@ -295,15 +295,6 @@ def _degree(element: Element, k: int) -> int:
     return max((powers[k] for powers in element), default=0)
 
 
-def _vanishes_at_i(element: Element, k: int) -> bool:
-    """Say whether 1 + t_k^2 divides an element, which a division would take much longer to tell."""
-    rest: dict[Powers, Any] = {}
-    for powers, coefficient in element.terms():
-        key = (*powers[:k], powers[k] % 2, *powers[k + 1 :])
-        rest[key] = rest.get(key, 0) + coefficient * (-1) ** (powers[k] // 2)
-    return not any(rest.values())
-
-
 def _content(polynomial: Element, k: int) -> Element:
     """Return the greatest common divisor of the coefficients of the powers of generator k."""
     by_power: dict[int, dict[tuple[int, ...], object]] = {}
@@ -321,8 +312,6 @@ def _content(polynomial: Element, k: int) -> Element:
 
 def _normal(element: Element) -> Element:
     """Return an element with whole coefficients without a common divisor, the first positive."""
-    if not element:
-        return element
     primitive = element.clear_denoms()[1].primitive()[1]
     return -primitive if primitive.LC < 0 else primitive
 

@@ -198,14 +198,12 @@ def _single_functions(ring: TrigRing, run: Run, part: Element) -> dict[Expr, Any
             total[key] = total.get(key, 0) + value
     result: dict[Expr, Any] = {}
     for (frequencies, kind), value in total.items():
-        if not value:
+        if not value:  # so it is for the sine of nothing: sines of x and -x come in pairs
             continue
         if any(abs(f) > 1 for f in frequencies):
             return None
         angle = Add(*(f * ring.angles[k] for f, k in zip(frequencies, run.angles, strict=True)))
         function = cos(angle) if kind == "c" else sin(angle)
-        if function.is_zero:
-            continue
         sign = -1 if function.could_extract_minus_sign() else 1
         result[sign * function] = result.get(sign * function, 0) + sign * value
     return {function: value for function, value in result.items() if value}
