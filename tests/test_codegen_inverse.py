@@ -8,6 +8,7 @@ import os
 import re
 import subprocess
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,16 +19,21 @@ from conftest import Runner
 from generated import STRICT_C, import_generated
 from inverse_checks import hard_poses
 from inverse_code import Loaded, compile_inverse, load
-from sympy import Float
+from sympy import Float, Rational, Symbol
 
 import symdh
 from symdh.codegen import TARGETS, GeneratedFile, Target, generate
+from symdh.codegen.graph import Graph
 from symdh.codegen.inverse import found as search
 from symdh.codegen.inverse.breaking import broken, broken_value
+from symdh.codegen.inverse.found import Missing
 from symdh.codegen.inverse.lowering import inverse_program
+from symdh.codegen.inverse.polynomials import Polynomials
 from symdh.codegen.inverse.program import Compute, Kind, Program, Propose, Solve
 from symdh.codegen.inverse.steps import KINDS
+from symdh.codegen.inverse.trigonometric import Trigonometry
 from symdh.derivation.inverse.steps import RULES
+from symdh.errors import UnsupportedError
 from symdh.kinematics.inverse.inverse import inverse_kinematics
 from symdh.kinematics.inverse.solution import Rule
 from symdh.templating.catalogue import shipped
@@ -632,3 +638,60 @@ def test_every_language_has_a_helper_for_every_kind_of_equation() -> None:
     for template in with_helpers:
         for kind in Kind:
             assert f'"{kind.value}" in ik.kinds' in template.text, template.name
+
+
+def test_a_length_without_code_is_the_reason_for_no_ik() -> None:
+    base, exponent = Symbol("l", real=True), Symbol("m", real=True)
+    robot = symdh.loads(PLANAR)
+    first, second = robot.joints
+    found = inverse_program(replace(robot, joints=(replace(first, a=base**exponent), second)))
+    assert isinstance(found, Missing)
+    assert found.reason == "no code can be generated for l__m"  # ** could end a comment
+
+
+def test_a_joint_that_is_not_there_cannot_be_locked() -> None:
+    with pytest.raises(UnsupportedError, match="theta9 is no joint variable of planar; these"):
+        generate(symdh.loads(PLANAR), "c", lock=(Symbol("theta9", real=True),))
+
+
+def test_polynomials_in_one_angle_are_added_and_multiplied() -> None:
+    """By powers of e^(ix), those from 0 up, each with its real and its imaginary part."""
+    graph = Graph()
+    x, y, zero, one = graph.symbol(Symbol("x")), graph.symbol(Symbol("y")), graph.zero, graph.one
+    trigonometry = Trigonometry(Polynomials(graph, [], range(0), {}))
+    a, b = {0: (x, zero), 1: (x, y)}, {1: (y, zero), 2: (one, x)}
+    assert trigonometry.added(a, b) == {
+        0: (x, zero),
+        1: (graph.add(x, y), y),
+        2: (one, x),
+    }
+    assert trigonometry.added(a, b, -1) == {
+        0: (x, zero),
+        1: (graph.sub(x, y), y),
+        2: (graph.neg(one), graph.neg(x)),
+    }
+    assert trigonometry.product({}, a) == {}
+    # cos x = (e^(ix) + e^(-ix)) / 2, so its square is 1/2 + (e^(2ix) + e^(-2ix)) / 4.
+    half, quarter = graph.constant(Rational(1, 2)), graph.constant(Rational(1, 4))
+    assert trigonometry.product({1: (half, zero)}, {1: (half, zero)}) == {
+        0: (half, zero),
+        2: (quarter, zero),
+    }
+
+
+def test_a_long_value_in_brackets_gets_no_others() -> None:
+    terms = " + ".join(f"term{k:02}" for k in range(20))
+    for value, brackets in ((f"({terms})", 1), (f"({terms}) * 2", 2), (f"({terms}) * (a + b)", 3)):
+        text = broken_value("x = ", value, 1)
+        assert max(map(len, text.split("\n"))) <= 100
+        assert text.count("(") == text.count(")") == brackets
+        inner = value if brackets == 1 else f"({value})"
+        assert re.sub(r"\s+", "", text) == re.sub(r"\s+", "", f"x={inner}")
+
+
+def test_the_seed_is_said_to_hold_what_is_locked() -> None:
+    robot = symdh.loads(f"{PLANAR}  - {{theta: t3, d: 0, a: 1, alpha: 0}}\n")
+    (locked,) = generate(robot, "python", lock=(Symbol("t3", real=True),))
+    assert "so does t3, which is locked" in re.sub(r"\s+", " ", locked.text)
+    (plain,) = generate(robot, "python")
+    assert "which is locked" not in plain.text

@@ -21,7 +21,7 @@ import pytest
 from generated import STRICT_C
 from lint_c import findings
 from oracle import EXTENDED, FIFTY_DIGITS, read_arm_file
-from sympy import Integer, Rational
+from sympy import Integer, Rational, Symbol, sin, sqrt
 from test_codegen import (
     D4,
     OBLIQUE,
@@ -50,7 +50,7 @@ from symdh.codegen.precision import DOUBLE, FLOAT, Precision
 from symdh.codegen.stages import cut_stages
 from symdh.codegen.targets import c
 from symdh.errors import UnsupportedError
-from symdh.robot import Robot
+from symdh.robot import Convention, Joint, JointType, Robot
 from tools import has_instructions, require_tool
 
 TABLES = Path(__file__).parent / "data" / "tables"
@@ -358,6 +358,38 @@ def test_a_batch_is_poses_one_by_one(robot: Robot, kind: str, tmp_path: Path) ->
             assert (arrays[12] == 7.0).all()
             assert (arrays[:, size:] == 7.0).all()
             assert (poses[size:] == 7.0).all()
+
+
+def test_a_batch_may_turn_by_a_parameter_and_slide_by_a_sine(tmp_path: Path) -> None:
+    """A twist b that is open, and a cam: what the angle of each pose gives is its sine alone."""
+    b = Symbol("b", real=True)
+    cam = Joint(JointType.PRISMATIC, Integer(0), 3 * sin(Q1), Integer(0), b, Q1)
+    arm = Robot("cam", Convention.STANDARD, (cam, revolute(Q2, a=Integer(2))))
+    built = build(arm, tmp_path, batch=True)
+    q = np.array([[0.4, 1.2], [2.0, -0.3], [-0.7, 3.0]])
+    poses = np.zeros((3, 16))
+    pointer = ctypes.POINTER(ctypes.c_double)
+    built.library.cam_fk_poses(
+        ctypes.c_size_t(3),
+        q.ctypes.data_as(pointer),
+        (ctypes.c_double * 1)(0.5),
+        poses.ctypes.data_as(pointer),
+    )
+    cb, sb = math.cos(0.5), math.sin(0.5)
+    for (lift, turn), pose in zip(q, poses, strict=True):
+        c, s = math.cos(turn), math.sin(turn)
+        # The slide along z, then Rx(b), then Rz(turn) and 2 along the new x.
+        by_hand = [c, -s, 0, 2 * c, cb * s, cb * c, -sb, 2 * cb * s]
+        by_hand += [sb * s, sb * c, cb, 3 * math.sin(lift) + 2 * sb * s, 0, 0, 0, 1]
+        np.testing.assert_allclose(pose, by_hand, 0, 1e-14)
+
+
+def test_a_root_of_a_joint_variable_has_no_batch() -> None:
+    slide = Joint(JointType.PRISMATIC, Integer(0), sqrt(Q1), Integer(0), Integer(0), Q1)
+    arm = Robot("root", Convention.STANDARD, (slide,))
+    assert generate(arm, "c")
+    with pytest.raises(UnsupportedError, match="sqrt of a joint variable has no batch form"):
+        generate(arm, "c", batch=True)
 
 
 def test_batch_functions_are_left_out_unless_asked_for() -> None:

@@ -42,7 +42,7 @@ from test_codegen_jacobian import (
 import symdh
 from symdh.codegen import TARGETS, GeneratedFile, generate
 from symdh.codegen.targets import Target, cpp, javascript, julia, matlab, rust
-from symdh.codegen.verification import verify
+from symdh.codegen.verification import random_poses, verify
 from symdh.errors import SymdhError, UnsupportedError
 from symdh.robot import Robot
 from tools import find_tool, require_tool
@@ -554,6 +554,23 @@ def test_julia_agrees_with_the_oracles_in_our_interpreter(tmp_path: Path) -> Non
             found = (module.call("fk", q, **given), T, module.call("jacobian", q, **given), J)
             lines.append(" ".join(repr(float(x)) for matrix in found for x in matrix.ravel()))
     assert_agrees("\n".join(lines))
+
+
+def test_julia_is_asked_to_print_the_poses(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """There is no Julia to run it: it is Julia by its grammar, and includes what was written."""
+    monkeypatch.setattr(julia, "find_program", lambda name: f"/opt/{name}")
+    files = julia.generate(PLANAR)
+    poses = random_poses(PLANAR, 3, is_single=False)
+    program = julia.check_program(PLANAR, files, poses)
+    (driver,) = program.files
+    assert program.commands == (("/opt/julia", "--startup-file=no", driver.name),)
+    assert driver.name != files[0].name
+    assert not julia_parser()(driver.text.encode()).root_node.has_error
+    assert f'include("{files[0].name}")' in driver.text
+    for row in poses.joints:
+        assert all(repr(x) in driver.text for x in row)
 
 
 # --------------------------------------------------------------------------------- all languages

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import sys
 from dataclasses import replace
@@ -9,13 +10,15 @@ from pathlib import Path
 
 import pytest
 from conftest import Runner
-from sympy import Integer
-from test_codegen import FORMULAS, OBLIQUE, PLANAR, Q1, SCARA, STANDARD, STILL, revolute
+from sympy import Integer, sqrt
+from test_codegen import FORMULAS, L1, OBLIQUE, PLANAR, Q1, SCARA, STANDARD, STILL, revolute
 
 import symdh
-from symdh.codegen import generate
+from symdh.codegen import generate, verification
+from symdh.codegen.exact import ExactChain
+from symdh.codegen.targets import python
 from symdh.codegen.verification import CheckProgram, random_poses, verify
-from symdh.errors import LimitError, OutputError
+from symdh.errors import LimitError, OutputError, UnsupportedError
 from symdh.robot import Robot
 from tools import find_tool, require_tool
 
@@ -108,8 +111,6 @@ def test_wrong_answers_are_found_out(right: str, wrong: str) -> None:
 
 
 def test_answers_that_are_not_printed_are_missed(monkeypatch: pytest.MonkeyPatch) -> None:
-    from symdh.codegen.targets import python
-
     given = CheckProgram((), ((sys.executable, "-c", "print('1 ' * 16)"),))
     monkeypatch.setattr(python, "check_program", lambda *arguments: given)
     with pytest.raises(OutputError, match="did not print its answers"):
@@ -118,8 +119,6 @@ def test_answers_that_are_not_printed_are_missed(monkeypatch: pytest.MonkeyPatch
 
 def test_nan_is_not_right(monkeypatch: pytest.MonkeyPatch) -> None:
     prints_nan = CheckProgram((), ((sys.executable, "-c", "print('nan ' * 16)"),))
-    from symdh.codegen.targets import python
-
     monkeypatch.setattr(python, "check_program", lambda *arguments: prints_nan)
     assert not verify(ONE, "python", (), count=1, ik=False).is_right
 
@@ -134,8 +133,6 @@ def test_nan_is_not_right(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_code_that_does_not_run_is_reported(
     program: str, message: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from symdh.codegen.targets import python
-
     given = CheckProgram((), ((sys.executable, "-c", program),))
     monkeypatch.setattr(python, "check_program", lambda *arguments: given)
     with pytest.raises(OutputError, match=message):
@@ -143,9 +140,6 @@ def test_code_that_does_not_run_is_reported(
 
 
 def test_code_that_does_not_end_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
-    from symdh.codegen import verification
-    from symdh.codegen.targets import python
-
     given = CheckProgram((), ((sys.executable, "-c", "import time; time.sleep(60)"),))
     monkeypatch.setattr(python, "check_program", lambda *arguments: given)
     monkeypatch.setattr(verification, "_TIME_LIMIT", 0.5)
@@ -177,3 +171,32 @@ def test_the_command_says_which_compiler_is_missing(tmp_path: Path, run_symdh: R
     assert ran.returncode == 3
     assert "cc or gcc or clang is not installed" in ran.stderr
     assert (tmp_path / "scara.c").exists()
+
+
+def test_a_program_that_is_not_there_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+    given = CheckProgram((), (("/nowhere/compiler",),))
+    monkeypatch.setattr(python, "check_program", lambda *arguments: given)
+    with pytest.raises(OutputError, match="cannot verify: compiler: No such file or directory"):
+        verify(ONE, "python", (), count=1)
+
+
+def test_answers_that_are_nan_are_not_right(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The one joint at any angle has a pose that is right here; the answer to it is none."""
+    joints = random_poses(ONE, 1, is_single=False).joints[0]
+    c, s = math.cos(joints[0]), math.sin(joints[0])
+    pose = [c, -s, 0, 2 * c, s, c, 0, 2 * s, 0, 0, 1, 0, 0, 0, 0, 1]
+    printed = f"{' '.join(map(repr, pose))}\nik nan"
+    given = CheckProgram((), ((sys.executable, "-c", f"print({printed!r})"),))
+    monkeypatch.setattr(python, "check_program", lambda *arguments: given)
+    found = verify(ONE, "python", (), count=1)
+    assert found.error <= found.tolerance
+    assert found.inverse is not None
+    assert math.isnan(found.inverse.error)
+    assert (found.inverse.found, found.inverse.is_right, found.is_right) == (0, False, False)
+
+
+def test_a_length_that_is_no_real_number_cannot_be_verified() -> None:
+    arm = Robot("arm", STANDARD, (revolute(Q1, a=sqrt(L1)),))
+    assert ExactChain(arm, {L1: 4.0}).lengths == 2
+    with pytest.raises(UnsupportedError, match="has no value to verify with"):
+        ExactChain(arm, {L1: -4.0})

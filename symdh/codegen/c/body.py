@@ -132,21 +132,19 @@ class BodyWriter:
         """Write what a sum has lost, what its parts had lost already included."""
         name = self._names[total]
         first, second = total.args
-        sign = "-" if total.op is Op.SUB else ""
+        sign = "-" if total.op is Op.SUB else "+"
         left, right = self._summand(total, first), self._summand(total, second)
-        if sign:
+        if sign == "-":
             right = f"-({right})" if " " in right else f"-{right}"
         text = f"{self._lost_function(total)}({left}, {right}, {name})"
-        text += self._inherited(first, "") + self._inherited(second, sign)
+        text += self._inherited(first, "+") + self._inherited(second, sign)
         label = name.removeprefix("angle")
         self._lost[total] = self._scope.take(f"lost{label}" if label != name else f"lost_{name}")
         return self._assigned(total, self._lost[total], text)
 
     def _inherited(self, part: Node, sign: str) -> str:
-        while part.op is Op.NEG:
-            (part,) = part.args
-            sign = "" if sign else "-"
-        return f" {sign or '+'} {self._lost[part]}" if part in self._lost else ""
+        """Write what a part of a sum has lost itself; the graph has no sums with a -part."""
+        return f" {sign} {self._lost[part]}" if part in self._lost else ""
 
     def _sines_and_cosines(self, group: Sequence[Angle]) -> Iterator[Statement]:
         width = 2 if len(group) <= 2 else 4

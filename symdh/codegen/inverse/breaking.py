@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from itertools import accumulate
 
 _WIDTH = 100
 _ARGUMENTS = re.compile(r"(?<=[,|]) ")
@@ -68,12 +69,9 @@ def broken_value(target: str, value: str, depth: int, layout: Layout = _PLAIN) -
 
 def _is_bracketed(text: str) -> bool:
     """Say whether the bracket that opens a text closes at its very end."""
-    depth = 0
-    for place, character in enumerate(text):
-        depth += (character == "(") - (character == ")")
-        if depth == 0:
-            return character == ")" and place == len(text) - 1
-    return False
+    signs = ((character == "(") - (character == ")") for character in text)
+    depths = list(accumulate(signs))
+    return text.startswith("(") and depths.index(0) == len(text) - 1
 
 
 def _pieces(text: str, width: int, places: tuple[re.Pattern[str], ...]) -> list[str]:
