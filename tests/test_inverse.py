@@ -41,7 +41,7 @@ import symdh
 from symdh.derivation.inverse import Solved, inverse_document
 from symdh.derivation.inverse.known_parts import is_told
 from symdh.errors import LimitError, UnsupportedError
-from symdh.kinematics.inverse import clock, fallback, inverse, roots
+from symdh.kinematics.inverse import clock, fallback, inverse, numeric, roots
 from symdh.kinematics.inverse.branches import Branches, branches_of
 from symdh.kinematics.inverse.check import tried
 from symdh.kinematics.inverse.evaluate import Evaluator
@@ -1371,3 +1371,15 @@ def test_what_is_stuck_says_how_far_it_came() -> None:
     assert not isinstance(tried, ClosedForm)
     assert tried.missing
     assert not tried.timed_out
+
+
+def test_a_pose_is_shaken_by_a_small_turn_and_a_small_step() -> None:
+    """The turn is I + [w]x to first order, so it is the unit matrix but for what is skew."""
+    unit = tuple(tuple(float(r == c) for c in range(4)) for r in range(4))
+    direction = [0.1, -0.2, 0.3, 0.5, -0.6, 0.7]
+    shaken = np.array(numeric._shaken(unit, 1e-3, 2.0, direction))
+    turn = shaken[:3, :3]
+    assert np.allclose(turn + turn.T, 2 * np.eye(3), rtol=0, atol=1e-15)
+    w = np.array([turn[2, 1], turn[0, 2], turn[1, 0]])
+    assert np.allclose(w, [1e-4, -2e-4, 3e-4], rtol=0, atol=1e-15)
+    assert np.allclose(shaken[:3, 3], [1e-3, -1.2e-3, 1.4e-3], rtol=0, atol=1e-15)
