@@ -11,6 +11,9 @@ from pathlib import Path
 from types import FrameType
 
 TIME_LIMIT = 20.0
+#: Seconds after which a template is stopped again: an exception that is raised while garbage is
+#: collected, or while jinja2 tries what is constant, goes no further.
+_AGAIN = 1.0
 LENGTH_LIMIT = 50_000_000
 _MEMORY = 1 << 28
 
@@ -60,7 +63,7 @@ def _within_time() -> Iterator[None]:
         raise OutOfTimeError(f"the template did not end within {TIME_LIMIT:g} s and was stopped")
 
     before = signal.signal(signal.SIGALRM, stop)
-    signal.setitimer(signal.ITIMER_REAL, TIME_LIMIT)
+    signal.setitimer(signal.ITIMER_REAL, TIME_LIMIT, _AGAIN)
     try:
         yield
     finally:
