@@ -21,7 +21,7 @@ import pytest
 from generated import STRICT_C
 from lint_c import findings
 from oracle import EXTENDED, FIFTY_DIGITS, read_arm_file
-from sympy import Integer, Rational, Symbol, sin, sqrt
+from sympy import Integer, Rational, Symbol, cos, sin, sqrt
 from test_codegen import (
     D4,
     OBLIQUE,
@@ -361,10 +361,10 @@ def test_a_batch_is_poses_one_by_one(robot: Robot, kind: str, tmp_path: Path) ->
 
 
 def test_a_batch_may_turn_by_a_parameter_and_slide_by_a_sine(tmp_path: Path) -> None:
-    """A twist b that is open, and a cam: what the angle of each pose gives is its sine alone."""
-    b = Symbol("b", real=True)
+    """A twist b that is open, a cam that takes the sine alone, a length that takes a cosine."""
+    b, e = Symbol("b", real=True), Symbol("e", real=True)
     cam = Joint(JointType.PRISMATIC, Integer(0), 3 * sin(Q1), Integer(0), b, Q1)
-    arm = Robot("cam", Convention.STANDARD, (cam, revolute(Q2, a=Integer(2))))
+    arm = Robot("cam", Convention.STANDARD, (cam, revolute(Q2, a=2 * cos(e))))
     built = build(arm, tmp_path, batch=True)
     q = np.array([[0.4, 1.2], [2.0, -0.3], [-0.7, 3.0]])
     poses = np.zeros((3, 16))
@@ -372,15 +372,15 @@ def test_a_batch_may_turn_by_a_parameter_and_slide_by_a_sine(tmp_path: Path) -> 
     built.library.cam_fk_poses(
         ctypes.c_size_t(3),
         q.ctypes.data_as(pointer),
-        (ctypes.c_double * 1)(0.5),
+        (ctypes.c_double * 2)(0.5, 0.3),
         poses.ctypes.data_as(pointer),
     )
-    cb, sb = math.cos(0.5), math.sin(0.5)
+    cb, sb, a = math.cos(0.5), math.sin(0.5), 2 * math.cos(0.3)
     for (lift, turn), pose in zip(q, poses, strict=True):
         c, s = math.cos(turn), math.sin(turn)
-        # The slide along z, then Rx(b), then Rz(turn) and 2 along the new x.
-        by_hand = [c, -s, 0, 2 * c, cb * s, cb * c, -sb, 2 * cb * s]
-        by_hand += [sb * s, sb * c, cb, 3 * math.sin(lift) + 2 * sb * s, 0, 0, 0, 1]
+        # The slide along z, then Rx(b), then Rz(turn) and a along the new x.
+        by_hand = [c, -s, 0, a * c, cb * s, cb * c, -sb, a * cb * s]
+        by_hand += [sb * s, sb * c, cb, 3 * math.sin(lift) + a * sb * s, 0, 0, 0, 1]
         np.testing.assert_allclose(pose, by_hand, 0, 1e-14)
 
 
