@@ -1383,3 +1383,23 @@ def test_a_pose_is_shaken_by_a_small_turn_and_a_small_step() -> None:
     w = np.array([turn[2, 1], turn[0, 2], turn[1, 0]])
     assert np.allclose(w, [1e-4, -2e-4, 3e-4], rtol=0, atol=1e-15)
     assert np.allclose(shaken[:3, 3], [1e-3, -1.2e-3, 1.4e-3], rtol=0, atol=1e-15)
+
+
+def test_of_two_slides_along_one_line_one_is_too_many() -> None:
+    """The first and the third slide are parallel: five joints, two ways to shift, two to turn.
+
+    The second is found all the same, before the search comes to its end.
+    """
+    robot = symdh.loads(
+        "name: arm\nconvention: standard\nunits: {angle: deg, length: m}\njoints:\n"
+        "  - {theta: 0, d: q1, a: 0, alpha: 90}\n"
+        "  - {theta: 0, d: q2, a: 0, alpha: 90}\n"
+        "  - {theta: 0, d: q3, a: 0, alpha: 40}\n"
+        "  - {theta: q4, d: 0.2, a: 0.4, alpha: 50}\n"
+        "  - {theta: q5, d: 0.3, a: 0.2, alpha: 20}\n"
+    )
+    with pytest.raises(UnsupportedError, match="5 joints that move, and they move the hand in 4 w"):
+        inverse_kinematics(robot)
+    found = inverse_kinematics(robot, locked=[symbol("q1")])
+    assert found.method is Method.CLOSED_FORM
+    assert tried(found, 30).found == 30
