@@ -40,9 +40,8 @@ import pytest
 import sympy  # noqa: F401
 from coverage.numbits import numbits_to_nums
 from mutants import Mutant, Place, mutant, places
+from sources import MUTATED, MUTATION, ROOT, sources
 
-ROOT = Path(__file__).resolve().parent.parent
-KEPT = ROOT / ".mutation"
 GOAL = 90
 LAYERS = ("table", "motion", "kinematics", "codegen")
 #: The tests of these layers. What runs TeX or a browser is left out.
@@ -157,28 +156,26 @@ def as_files(test: str) -> str:
 def digest() -> str:
     """Return what changes when the package or its tests do."""
     total = hashlib.sha256()
-    ours = ("symdh", "*.py"), ("tests", "*.py"), ("templates", "*.jinja")
-    for folder, pattern in ours:
-        for path in sorted((ROOT / folder).rglob(pattern)):
-            total.update(path.read_bytes())
+    for path in sources():
+        total.update(path.read_bytes())
     return total.hexdigest()
 
 
 @cache
 def reached_lines() -> Reached:
     """Return what each test reaches, as kept, or measured now when a file has changed since."""
-    mark = KEPT / "digest"
+    mark = MUTATION / "digest"
     if not mark.is_file() or mark.read_text() != digest():
         measure()
         mark.write_text(digest())
-    return Reached(KEPT)
+    return Reached(MUTATION)
 
 
 def measure() -> None:
     """Run the tests once under coverage."""
-    shutil.rmtree(KEPT, ignore_errors=True)
-    KEPT.mkdir()
-    rules = KEPT / "coveragerc"
+    shutil.rmtree(MUTATION, ignore_errors=True)
+    MUTATION.mkdir()
+    rules = MUTATION / "coveragerc"
     rules.write_text(RULES.format(source="".join(f"\n    {ROOT}/symdh/{at}" for at in LAYERS)))
 
     def run(name: str) -> None:
@@ -189,12 +186,12 @@ def measure() -> None:
                     "-m",
                     "pytest",
                     *PYTEST,
-                    f"--junitxml={KEPT}/{name}.xml",
+                    f"--junitxml={MUTATION}/{name}.xml",
                     f"tests/test_{name}.py",
                 ),
             ],
             cwd=ROOT,
-            env={**os.environ, "COVERAGE_FILE": str(KEPT / f"{name}.coverage")},
+            env={**os.environ, "COVERAGE_FILE": str(MUTATION / f"{name}.coverage")},
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
@@ -300,7 +297,7 @@ def main() -> int:
     told = f"{killed.total()} of {len(drawn)} = {100 * part:.1f} % ({low:.0f} to {high:.0f} %)"
     print(f"{told}   at least {GOAL} % killed   {verdict}")
     if layers == list(LAYERS) and not options.module and len(drawn) >= 200:
-        (KEPT / "result").write_text(f"{told}\n")
+        MUTATED.write_text(f"{told}\n")
     return int(100 * part < GOAL)
 
 

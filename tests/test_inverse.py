@@ -305,6 +305,19 @@ def test_a_limit_that_is_no_number_is_none() -> None:
         assert [answer.within_limits for answer in answers] == within
 
 
+def assert_solved(text: str, task: str | None = None, count: int = 10) -> InverseKinematics:
+    """Derive a closed form and let the oracle say that random poses are solved."""
+    arm, found = read_arm(text), inverse_kinematics(symdh.loads(text), task)
+    assert found.method is Method.CLOSED_FORM
+    solver = found.solver()
+    q = arm.seeded_poses(count, seed=12)
+    for truth, goal in zip(q, pose_of(arm, q), strict=True):
+        answers = solver.solve(goal.tolist())
+        assert min(apart(arm, answer.q, truth) for answer in answers) < 1e-6
+        assert missed_by(arm, found, answers, goal) < 1e-9 * reach_of(arm)
+    return found
+
+
 ODD_SLIDES = {
     "RRP": """
   - {theta: theta1, d: 0.3, a: 0, alpha: 0}
@@ -332,20 +345,12 @@ def test_a_slide_behind_an_odd_twist_drops_out(kind: str) -> None:
         "name: odd\nconvention: modified\nunits: {angle: deg, length: m}\n"
         f"joints:{ODD_SLIDES[kind]}tool: [Tx(0.1), Tz(0.2)]\n"
     )
-    robot, arm = symdh.loads(text), read_arm(text)
-    found = inverse_kinematics(robot)
-    assert found.method is Method.CLOSED_FORM
+    found = assert_solved(text, count=50)
     assert found.form is not None
     equations = [used.equation for step in found.form.steps for used in step.equations]
     used = {equation.combination for equation in equations}
     used |= {parent.combination for equation in equations for parent in equation.parents}
     assert Combination.WITHOUT_SLIDE in used
-    solver = found.solver()
-    q = arm.seeded_poses(50, seed=3)
-    for truth, goal in zip(q, pose_of(arm, q), strict=True):
-        answers = solver.solve(goal.tolist())
-        assert min(apart(arm, answer.q, truth) for answer in answers) < 1e-6
-        assert missed_by(arm, found, answers, goal) < 1e-9 * reach_of(arm)
     steps = render_chapters(inverse_document(found).chapters)
     assert "so that the slide that stands in both drops out" in " ".join(steps.split())
 
@@ -392,12 +397,7 @@ joints:
   - {theta: theta1, d: 0.3, a: 0.2, alpha: 90 deg}
   - {theta: 0, d: q2, a: 0.1, alpha: 60 deg}
 """
-    robot, arm = symdh.loads(text), read_arm(text)
-    found = inverse_kinematics(robot, "x y")
-    assert found.method is Method.CLOSED_FORM
-    for truth in arm.seeded_poses(20, seed=3):
-        answers = found.solver().solve(pose_of(arm, truth).tolist())
-        assert min(apart(arm, answer.q, truth) for answer in answers) < 1e-6
+    assert_solved(text, "x y", count=20)
 
 
 @pytest.mark.parametrize(
@@ -597,19 +597,6 @@ def test_an_impossible_task_is_refused() -> None:
 
 
 # ---------------------------------------------------------------- what degenerates, and what is odd
-
-
-def assert_solved(text: str, task: str | None = None, count: int = 10) -> InverseKinematics:
-    """Derive a closed form and let the oracle say that random poses are solved."""
-    arm, found = read_arm(text), inverse_kinematics(symdh.loads(text), task)
-    assert found.method is Method.CLOSED_FORM
-    solver = found.solver()
-    q = arm.seeded_poses(count, seed=12)
-    for truth, goal in zip(q, pose_of(arm, q), strict=True):
-        answers = solver.solve(goal.tolist())
-        assert min(apart(arm, answer.q, truth) for answer in answers) < 1e-6
-        assert missed_by(arm, found, answers, goal) < 1e-9 * reach_of(arm)
-    return found
 
 
 def at(x: float, y: float, z: float = 0.0) -> list[list[float]]:

@@ -45,7 +45,7 @@ from symdh.codegen.targets import Target, cpp, javascript, julia, matlab, rust
 from symdh.codegen.verification import random_poses, verify
 from symdh.errors import SymdhError, UnsupportedError
 from symdh.robot import Robot
-from tools import find_tool, require_tool
+from tools import LANGUAGES, find_tool, require_language, require_tool
 
 Generator = Callable[[Robot], tuple[GeneratedFile, ...]]
 #: Parallel axes: what adds the angles up before it takes the cosine is wrong at a million radians.
@@ -556,9 +556,7 @@ def test_julia_agrees_with_the_oracles_in_our_interpreter(tmp_path: Path) -> Non
     assert_agrees("\n".join(lines))
 
 
-def test_julia_is_asked_to_print_the_poses(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_julia_is_asked_to_print_the_poses(monkeypatch: pytest.MonkeyPatch) -> None:
     """There is no Julia to run it: it is Julia by its grammar, and includes what was written."""
     monkeypatch.setattr(julia, "find_program", lambda name: f"/opt/{name}")
     files = julia.generate(PLANAR)
@@ -596,26 +594,7 @@ def test_a_name_cannot_leave_its_comment(target: Target) -> None:
         assert "int x;" not in file.text
 
 
-#: The tool that runs each language, and whether CI promises it.
-TOOLS = {
-    "python": ("python3", True),
-    "c": ("gcc", True),
-    "cpp": ("g++", True),
-    "matlab": ("octave-cli", True),
-    "javascript": ("node", True),
-    "rust": ("rustc", False),
-    "julia": ("julia", False),
-    "python-ext": ("gcc", True),
-}
-
-
-def require_language(target: str) -> None:
-    """Skip a test where a language cannot be run; fail where CI promises it."""
-    tool, promised = TOOLS[target]
-    (require_tool if promised else find_tool)(tool)
-
-
-@pytest.mark.parametrize("target", TOOLS)
+@pytest.mark.parametrize("target", LANGUAGES)
 def test_symdh_verifies_what_it_wrote(target: str) -> None:
     require_language(target)
     verification = verify(PUMA, target, generate(PUMA, target), count=5)
@@ -624,7 +603,7 @@ def test_symdh_verifies_what_it_wrote(target: str) -> None:
 
 
 def test_every_target_is_among_the_languages_here() -> None:
-    assert set(TOOLS) == {target.name for target in TARGETS}
+    assert set(LANGUAGES) == {target.name for target in TARGETS}
 
 
 def planar_with_lengths(names: list[str]) -> Robot:
@@ -646,7 +625,7 @@ def may_be_a_length(name: str) -> bool:
     return True
 
 
-@pytest.mark.parametrize("target", TOOLS)
+@pytest.mark.parametrize("target", LANGUAGES)
 def test_lengths_may_be_called_what_the_code_calls_its_own(target: str) -> None:
     """Every function that generated code calls or defines and each of its constants, as a length.
 

@@ -20,7 +20,7 @@ from symdh.codegen.targets import python
 from symdh.codegen.verification import CheckProgram, random_poses, verify
 from symdh.errors import LimitError, OutputError, UnsupportedError
 from symdh.robot import Robot
-from tools import find_tool, require_tool
+from tools import require_language, require_tool
 
 ROOT = Path(__file__).parent.parent
 SCARA_TABLE = ROOT / "examples" / "scara.yaml"
@@ -62,7 +62,7 @@ def test_wrong_code_is_found_out(target: str) -> None:
 @pytest.mark.parametrize("target", ["python", "c", "cpp", "rust", "python-ext"])
 @pytest.mark.parametrize("robot", [PLANAR, SCARA], ids=lambda r: r.name)
 def test_right_answers_are_right(robot: Robot, target: str) -> None:
-    find_tool("rustc") if target == "rust" else require_tool("g++")
+    require_language(target)
     found = verify(robot, target, generate(robot, target), count=20).inverse
     assert found is not None
     assert found.is_right

@@ -31,6 +31,25 @@ def require_tool(name: str) -> str:
     return path
 
 
+#: The tool that runs each language, and whether CI promises it.
+LANGUAGES = {
+    "python": ("python3", True),
+    "c": ("gcc", True),
+    "cpp": ("g++", True),
+    "matlab": ("octave-cli", True),
+    "javascript": ("node", True),
+    "rust": ("rustc", False),
+    "julia": ("julia", False),
+    "python-ext": ("gcc", True),
+}
+
+
+def require_language(target: str) -> None:
+    """Skip a test where a language cannot be run; fail where CI promises it."""
+    tool, promised = LANGUAGES[target]
+    (require_tool if promised else find_tool)(tool)
+
+
 def has_instructions(name: str) -> bool:
     """Say whether this machine runs an extension of its instruction set, as Linux calls it."""
     cpu = Path("/proc/cpuinfo")

@@ -20,9 +20,9 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+from sources import MUTATED, ROOT, sources
+
 TESTS = ROOT / "tests"
-RESULT = ROOT / ".mutation" / "result"
 FUZZED = (
     "expression",
     "table",
@@ -107,9 +107,8 @@ def is_current(result: Path) -> bool:
     """Say whether a result is there and younger than all that it is a result of."""
     if not result.is_file():
         return False
-    ours = ("symdh", "*.py"), ("tests", "*.py"), ("templates", "*.jinja")
-    files = (file for folder, pattern in ours for file in (ROOT / folder).rglob(pattern))
-    return all(file.stat().st_mtime < result.stat().st_mtime for file in files)
+    made = result.stat().st_mtime
+    return all(file.stat().st_mtime < made for file in sources())
 
 
 def covered() -> Figure:
@@ -125,9 +124,9 @@ def covered() -> Figure:
 def mutated() -> Figure:
     """Read how many of 200 mutants the tests were last seen to kill."""
     what, goal = "mutants of the four layers", f"at least {KILLED} % killed"
-    if not is_current(RESULT):
+    if not is_current(MUTATED):
         return Figure(what, "no data: make mutants", goal, None)
-    told = RESULT.read_text().strip()
+    told = MUTATED.read_text().strip()
     part = float(re.search(r"= ([\d.]+) %", told)[1])  # type: ignore[index]
     return Figure(what, told, goal, part >= KILLED)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from enum import Enum
+from itertools import count
 from string import ascii_lowercase
 
 from symdh.derivation import general, links, numbers, products, result, singularity, velocity
@@ -134,11 +135,8 @@ def _lettered(chapter: Chapter) -> Chapter:
 
 
 def _letters() -> Iterator[str]:
-    """Yield a, b, .. z, and then as many of a kind as it takes: aa, bb, ..."""
-    times = 1
-    while True:
-        yield from (letter * times for letter in ascii_lowercase)
-        times += 1
+    """Return a, b, .. z, and then as many of a kind as it takes: aa, bb, ..."""
+    return (letter * times for times in count(1) for letter in ascii_lowercase)
 
 
 def _without_answers(chapter: Chapter) -> Chapter:

@@ -71,10 +71,15 @@ def check_values(word: Word, known: Mapping[Symbol, Expr]) -> None:
 def _numeric(motion: Motion, known: Mapping[Symbol, Expr]) -> ImmutableMatrix:
     amount = motion.amount.xreplace(dict(known))
     if not (amount.is_finite and amount.is_real):
-        raise UnsupportedError(
-            f"these values make {motion.amount} equal to {amount}, which is not a real number"
-        )
+        raise not_real(motion.amount, amount)
     return elementary(Motion(motion.kind, motion.axis, amount)).evalf(_DIGITS)
+
+
+def not_real(amount: Expr, found: Expr) -> UnsupportedError:
+    """Return what to raise of an amount of the table that its values make infinite or complex."""
+    return UnsupportedError(
+        f"these values make {amount} equal to {found}, which is not a real number"
+    )
 
 
 def _rounded(entry: Expr, scale: Expr) -> float:

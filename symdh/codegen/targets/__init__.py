@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from symdh.robot import Robot
 
 
+#: Options that every target takes.
 _OF_EVERY_TARGET = ("lock", "ik")
 
 
@@ -95,7 +96,7 @@ TARGETS: tuple[Target, ...] = (
         "function files for MATLAB and Octave",
         ("_fk.m", "_jacobian.m", "_fk_jacobian.m", "_ik.m"),
     ),
-    Target("julia", "a Julia module without dependencies", (".jl",), options=("lock", "ik")),
+    Target("julia", "a Julia module without dependencies", (".jl",)),
     Target(
         "rust",
         "a Rust module that is no_std and needs no crate",

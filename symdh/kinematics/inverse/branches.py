@@ -96,9 +96,8 @@ def branches_of(form: ClosedForm, values: Mapping[Symbol, Expr] | None = None) -
     given = form.arm.given
     known = {**given.values, **(values or {})}
     drawn = random.Random(12)
-    free = [symbol for symbol in given.parameters if symbol not in known]
     numbers = {s: v for s, v in known.items() if s in given.parameters}
-    lengths = drawn_lengths(replace(given, values=numbers), free, drawn, 0.4, 1.6)
+    lengths = drawn_lengths(replace(given, values=numbers), drawn, 0.4, 1.6)
     numbers |= {symbol: Float(x, 17) for symbol, x in lengths.items()}
     # At zero, where locked joints are by default, an arm may be in a special position.
     held = {v: known.get(v, Float(drawn.uniform(0.4, 1.6), 17)) for v in form.arm.locked}
@@ -121,7 +120,7 @@ def branches_of(form: ClosedForm, values: Mapping[Symbol, Expr] | None = None) -
             names = _fixed_names(seen, place, told, feature)
         steps.append(Branching(step, feature, names))
     places = [None if each.feature is None else shown.index(each.feature) for each in steps]
-    return Branches(tuple(steps), _together(seen, steps, places), bool(free))
+    return Branches(tuple(steps), _together(seen, steps, places), bool(lengths))
 
 
 def _trials(solver: Solver, shown: Sequence[Feature], drawn: random.Random) -> list[_Seen]:

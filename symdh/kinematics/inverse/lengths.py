@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable
 
 from sympy import Expr, Float, Function, Pow, Symbol
 
 from symdh.errors import UnsupportedError
 from symdh.kinematics.chain import chain_word
 from symdh.kinematics.frame import first_frame, last_frame
+from symdh.kinematics.numeric import not_real
 from symdh.robot import Robot
 
 #: How often numbers are drawn until ``sqrt(L - 1)`` and its like are real, and after how many
@@ -18,16 +18,14 @@ _DRAWS, _SOME = 200, 20
 
 
 def drawn_lengths(
-    robot: Robot, symbols: Iterable[Symbol], drawn: random.Random, low: float, high: float
+    robot: Robot, drawn: random.Random, low: float, high: float
 ) -> dict[Symbol, float]:
-    """Draw numbers for parameters, anew until every amount of the table is a real number.
+    """Draw numbers for open parameters, anew until every amount of the table is a real number.
 
     Parameters
     ----------
     robot : Robot
-        Its values stand where there are any.
-    symbols : iterable of Symbol
-        The parameters to draw, in this order.
+        Parameters that have a value keep it.
     drawn : random.Random
     low, high : float
         The range; it grows upwards where none of its numbers will do.
@@ -35,17 +33,18 @@ def drawn_lengths(
     Returns
     -------
     dict of Symbol to float
+        Of the parameters that have no value, in their order.
 
     Raises
     ------
     UnsupportedError
         When the values make an amount infinite or complex, or all numbers that were drawn do.
     """
-    wanted = list(symbols)
     word = chain_word(robot, first_frame(robot), last_frame(robot))
     # Sums and multiples of real numbers are real.
     amounts = [m.amount for m in word if m.amount.atoms(Pow, Function)]
     values = {s: v for s, v in robot.values.items() if s in robot.parameters}
+    wanted = [s for s in robot.parameters if s not in values]
     unreal: list[Expr] = []
     for k in range(_DRAWS):
         numbers = {symbol: drawn.uniform(low, high * 2 ** (k // _SOME)) for symbol in wanted}
@@ -56,9 +55,7 @@ def drawn_lengths(
     found = unreal[0].xreplace(values)
     if found.free_symbols:
         raise UnsupportedError(f"no numbers were found that make {unreal[0]} a real number")
-    raise UnsupportedError(
-        f"these values make {unreal[0]} equal to {found}, which is not a real number"
-    )
+    raise not_real(unreal[0], found)
 
 
 def _is_real(amount: Expr) -> bool:

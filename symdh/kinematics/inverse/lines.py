@@ -65,7 +65,7 @@ class Axes:
     """
 
     def __init__(self, robot: Robot) -> None:
-        numbers = drawn_lengths(robot, robot.parameters, random.Random(3), 0.4, 1.6)
+        numbers = drawn_lengths(robot, random.Random(3), 0.4, 1.6)
         numbers |= {s: float(v) for s, v in robot.values.items() if s in robot.parameters}
         # The z axis that the joint turns about stands before its own rotation.
         self._skip = 0 if robot.convention is Convention.STANDARD else 2

@@ -202,8 +202,7 @@ def _random_values(robot: Robot, seed: int) -> list[float]:
 
 
 def _random_lengths(robot: Robot) -> dict[str, float]:
-    free = [s for s in robot.parameters if s not in robot.values]
-    numbers = drawn_lengths(robot, free, random.Random(11), 0.3, 1.5)
+    numbers = drawn_lengths(robot, random.Random(11), 0.3, 1.5)
     return {symbol.name: number for symbol, number in numbers.items()}
 
 
