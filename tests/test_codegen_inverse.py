@@ -498,6 +498,38 @@ def test_nothing_is_computed_before_what_it_needs() -> None:
                     assert all(leaves(node) <= there for node in statement.values)
 
 
+def test_every_option_names_what_it_writes_twice_and_what_would_be_long() -> None:
+    """Also one that only stands by: it names what nobody has computed before its turn."""
+    names_of_its_own = 0
+    for program in programs():
+        there: set[Any] = set()
+        for statement in program.statements:
+            match statement:
+                case Compute():
+                    there |= {assignment.node for assignment in statement.assignments}
+                case Solve():
+                    for option in statement.options:
+                        own = [assignment.node for assignment in option.assignments]
+                        names_of_its_own += len(own)
+                        named = there.union(own)
+                        lines = [written(node, named, is_value=True) for node in own]
+                        roots = (*option.coefficients, *option.scales)
+                        lines += [written(node, named) for node in roots]
+                        every = [node for line in lines for node in line]
+                        assert len(every) == len(set(every))
+                        # A part with five operations has a name: four, an operator, four.
+                        assert max(map(len, lines)) <= 9
+    assert names_of_its_own > 0
+
+
+def written(node: Any, named: set[Any], is_value: bool = False) -> list[Any]:
+    """Return each operation of a line as often as it stands there; of a name, none."""
+    if node.value is not None or (node in named and not is_value):
+        return []
+    inner = [each for arg in node.args for each in written(arg, named)]
+    return inner if node.op.name == "NEG" else [node, *inner]
+
+
 def leaves(node: Any) -> set[Any]:
     if node.value is not None:
         return set() if node.op.name == "CONSTANT" else {node}
