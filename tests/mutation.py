@@ -4,7 +4,8 @@ Draws places in table, motion, kinematics and codegen with a fixed seed, makes o
 each (an operator, a comparison, a number, a condition, a result), and runs the tests that reach
 the changed line on a copy of the tree until one fails: first those that reach little else, then
 the others, the quick ones first, up to some minutes. Which they are is measured first, with
-coverage, and kept in `.mutation` until a file changes. Prints each survivor, to be read, the part
+coverage, and kept in `.mutation` until a file changes that they depend on. What killed a mutant is
+kept there too, and runs before the others next time. Prints each survivor, to be read, the part
 that was killed, and its 95 % interval.
 
 Why not mutmut or cosmic-ray: mutmut 3.8 changes no code outside functions and in few with a
@@ -17,6 +18,7 @@ from __future__ import annotations
 import argparse
 import ast
 import hashlib
+import json
 import math
 import os
 import random
@@ -77,7 +79,11 @@ FILES = (
     "codegen_inverse_native",
     "codegen_inverse_script",
 )
-PYTEST = ("-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist")
+#: Those that measure time are left out: a busy machine would kill mutants.
+PYTEST = ("-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-m", "not undisturbed")
+#: What killed each mutant, a file each; the test that a run has begun last, in its tree.
+KILLERS = "killers"
+BEGUN = "begun"
 #: Seconds of tests, as measured: at first those that reach little else, then all that fit.
 FIRST, ALL = 20.0, 400.0
 RULES = """\
@@ -153,55 +159,48 @@ def as_files(test: str) -> str:
     return f"tests/{module}.py::{name.replace('.', '::')}"
 
 
-def digest() -> str:
-    """Return what changes when the package or its tests do."""
+def digest(name: str) -> str:
+    """Return what changes when the package does, or a file of tests, or what it imports."""
     total = hashlib.sha256()
     for path in sources():
-        total.update(path.read_bytes())
+        if path.stem == f"test_{name}" or not path.stem.startswith("test_"):
+            total.update(path.read_bytes())
     return total.hexdigest()
 
 
 @cache
 def reached_lines() -> Reached:
     """Return what each test reaches, as kept, or measured now when a file has changed since."""
-    mark = MUTATION / "digest"
-    if not mark.is_file() or mark.read_text() != digest():
-        measure()
-        mark.write_text(digest())
+    (MUTATION / KILLERS).mkdir(parents=True, exist_ok=True)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        list(pool.map(measure, FILES))
     return Reached(MUTATION)
 
 
-def measure() -> None:
-    """Run the tests once under coverage."""
-    shutil.rmtree(MUTATION, ignore_errors=True)
-    MUTATION.mkdir()
-    rules = MUTATION / "coveragerc"
+def measure(name: str) -> None:
+    """Run a file of tests once under coverage, unless what it came to is kept and still holds."""
+    mark = MUTATION / f"{name}.digest"
+    if mark.is_file() and mark.read_text() == digest(name):
+        return
+    rules = MUTATION / f"{name}.rules"
     rules.write_text(RULES.format(source="".join(f"\n    {ROOT}/symdh/{at}" for at in LAYERS)))
-
-    def run(name: str) -> None:
-        ran = subprocess.run(
-            [
-                *(sys.executable, "-m", "coverage", "run", f"--rcfile={rules}"),
-                *(
-                    "-m",
-                    "pytest",
-                    *PYTEST,
-                    f"--junitxml={MUTATION}/{name}.xml",
-                    f"tests/test_{name}.py",
-                ),
-            ],
-            cwd=ROOT,
-            env={**os.environ, "COVERAGE_FILE": str(MUTATION / f"{name}.coverage")},
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            check=False,
-        )
-        if ran.returncode != 0:
-            sys.exit(f"test_{name}.py fails without any change:\n{ran.stdout[-3000:]}")
-
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(run, FILES))
+    coverage = MUTATION / f"{name}.coverage"
+    coverage.unlink(missing_ok=True)
+    ran = subprocess.run(
+        [
+            *(sys.executable, "-m", "coverage", "run", f"--rcfile={rules}", "-m", "pytest"),
+            *(*PYTEST, f"--junitxml={MUTATION}/{name}.xml", f"tests/test_{name}.py"),
+        ],
+        cwd=ROOT,
+        env={**os.environ, "COVERAGE_FILE": str(coverage)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    if ran.returncode != 0:
+        sys.exit(f"test_{name}.py fails without any change:\n{ran.stdout[-3000:]}")
+    mark.write_text(digest(name))
 
 
 def draw(count: int, seed: int, layers: list[str], part: str) -> list[Mutant]:
@@ -225,11 +224,34 @@ def is_killed(changed: Mutant) -> bool:
     first = up_to(FIRST, tests, reached)
     others = [test for test in tests if test not in first]
     rest = up_to(ALL, sorted(others, key=reached.seconds.__getitem__), reached)
+    killer = MUTATION / KILLERS / hashlib.sha256(changed.text).hexdigest()
+    before = json.loads(killer.read_text()) if killer.is_file() else []
     with tempfile.TemporaryDirectory() as folder:
         tree = Path(folder, "tree")
         shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns(".*", "out", "__pycache__"))
         (tree / changed.module).write_bytes(changed.text)
-        return any(fails(each, tree, reached) for each in (first, rest) if each)
+        for some in ([test for test in before if test in tests], first, rest):
+            if some and fails(some, tree, reached):
+                killer.write_text(json.dumps(begun(tree)))
+                return True
+    return False
+
+
+def begun(tree: Path) -> list[str]:
+    """Return the test that was begun last, none where a file of tests could not be imported."""
+    note = tree / BEGUN
+    if not note.is_file():
+        return []
+    file, _, name = note.read_text().partition("::")
+    return [f"{Path(file).stem}.{name.split('[', 1)[0].replace('::', '.')}"]
+
+
+class Beginning:
+    """Writes down which test begins."""
+
+    def pytest_runtest_logstart(self, nodeid: str) -> None:
+        """Keep the name where it is found after the process has ended, however it ends."""
+        Path(BEGUN).write_text(nodeid)
 
 
 def fails(tests: list[str], tree: Path, reached: Reached) -> bool:
@@ -256,7 +278,7 @@ def fails(tests: list[str], tree: Path, reached: Reached) -> bool:
     sys.path[0] = str(tree)
     # A plugin that is loaded already is not rewritten, and need not be.
     loaded = ("-W", "ignore::pytest.PytestAssertRewriteWarning")
-    os._exit(pytest.main([*PYTEST, *loaded, *map(as_files, tests)]))
+    os._exit(pytest.main([*PYTEST, *loaded, *map(as_files, tests)], plugins=[Beginning()]))
 
 
 def interval(part: float, count: int) -> tuple[float, float]:
