@@ -15,7 +15,7 @@ from symdh.kinematics.inverse.state import State
 _FOUND = 2
 
 
-def name_part(state: State) -> bool:
+def name_part(state: State) -> None:
     """Name the pose of the part that is still open, where two more joints have been found."""
     last = next((step.part for step in reversed(state.steps) if step.part), None)
     before = last or (0, state.ring.arm.robot.n)
@@ -25,21 +25,20 @@ def name_part(state: State) -> bool:
     left = sum(1 for row in moving if i < row <= j)
     count = sum(1 for step in state.steps if step.part)
     if found < _FOUND or left < (_FOUND + 1 if count else _FOUND) or count == PARTS:
-        return False
+        return
     entries = _entries(_known_pose(state, before, (i, j)))
     first = state.ring.first_name + 12 * count
     definitions = tuple(
         (first + k, entry) for k, entry in enumerate(entries) if _gets_a_name(state, entry)
     )
     if not definitions:
-        return False
+        return
     state.take(Step(-1, Rule.NAMES, definitions=definitions, part=(i, j)))
     for generator, _ in definitions:
         entries[generator - first] = state.ring.gens[generator]
     pose = Pose([entries[3 * r : 3 * r + 3] for r in range(3)], entries[9:])
     state.parts[i, j] = pose
     state.pool.add_part(i, j, pose)
-    return True
 
 
 def _open_part(state: State) -> tuple[int, int]:

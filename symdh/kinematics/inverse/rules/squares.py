@@ -21,8 +21,8 @@ Sides = tuple[tuple[Element, Element], ...]
 Found = tuple[int, int, Element, Source, Sides]
 
 
-def add_squares(state: State) -> bool:
-    """Add equations in fewer open unknowns than the coordinates have; say whether there are any.
+def add_squares(state: State) -> None:
+    """Add equations in fewer open unknowns than the coordinates have.
 
     Matrix equations whose one side is known come first. Equations in one unknown are enough where
     there are any; else those in two are added.
@@ -39,13 +39,9 @@ def add_squares(state: State) -> bool:
         if any(count == 1 for count, *_ in found):
             break
     found.sort(key=lambda entry: entry[:2])
-    fewest = found[0][0] if found else 0
-    added = [
-        state.pool.add(element, source, sides)
-        for count, _, element, source, sides in found
-        if count == fewest
-    ]
-    return any(added)
+    for count, _, element, source, shown in found:
+        if count == found[0][0]:
+            state.pool.add(element, source, shown)
 
 
 def _of_split(state: State, split: Split) -> list[Found]:
