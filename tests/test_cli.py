@@ -576,7 +576,12 @@ from symdh.cli.main import main
 
 def wait(path):
     print("loading", flush=True)
-    time.sleep(60)
+    try:
+        time.sleep(60)
+    finally:
+        print("clearing up", flush=True)
+        sys.stdin.read()
+        print("cleared up", flush=True)
 
 symdh.table.load_table = wait
 sys.argv = ["symdh", "derive", "arm.yaml"]
@@ -589,13 +594,17 @@ main()
 )
 def test_a_signal_stops_without_a_word(number: int, status: int, arm: Path) -> None:
     process = subprocess.Popen(
-        [sys.executable, "-c", WAITING], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        [sys.executable, "-c", WAITING],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
     )
     assert process.stdout is not None
-    assert process.stdout.readline() == b"loading\n"
-    process.send_signal(number)
+    for expected in (b"loading\n", b"clearing up\n"):
+        assert process.stdout.readline() == expected
+        process.send_signal(number)  # the second one does not cut the clearing up short
     out, err = process.communicate(timeout=20)
-    assert (process.returncode, out, err) == (status, b"", b"")
+    assert (process.returncode, out, err) == (status, b"cleared up\n", b"")
     assert names() == {"arm.yaml"}
 
 

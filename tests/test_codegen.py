@@ -826,6 +826,12 @@ def test_cosines_are_called_what_books_call_them(angle: Expr, label: str) -> Non
     assert lowering.names[cosine] == f"c{label}"
 
 
+def test_sums_that_begin_alike_share_their_joints() -> None:
+    lowering = Lowering(Graph(), {real(f"q{i}"): i for i in range(1, 12)})
+    angle = {sum_: lowering.cos_sin(sum_)[0].args[0] for sum_ in (Q1 + Q2, Q1 + Q2 + BETA)}
+    assert angle[Q1 + Q2] in angle[Q1 + Q2 + BETA].args
+
+
 @pytest.mark.parametrize("quarters", range(-5, 6))
 @pytest.mark.parametrize("sign", [1, -1])
 def test_quarter_turns_and_signs_are_taken_out_of_angles(quarters: int, sign: int) -> None:
