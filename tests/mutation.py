@@ -264,8 +264,9 @@ def fails(tests: list[str], tree: Path, reached: Reached) -> bool:
     child = os.fork()
     if child:
         status = os.waitpid(child, 0)[1]
-        # 1: tests fail; 2: a file of tests cannot be imported. Anything else is no verdict.
-        if not os.WIFSIGNALED(status) and os.WEXITSTATUS(status) not in (0, 1, 2):
+        # 1: tests fail; 2: a file of tests cannot be imported; 4: nor can what all of them import,
+        # or a test is not there. Anything else is no verdict.
+        if not os.WIFSIGNALED(status) and os.WEXITSTATUS(status) not in (0, 1, 2, 4):
             raise RuntimeError(f"pytest ended with {os.WEXITSTATUS(status)} for {tests}")
         return status != 0
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
