@@ -3,10 +3,10 @@
 Draws places in table, motion, kinematics and codegen with a fixed seed, makes one small change at
 each (an operator, a comparison, a number, a condition, a result), and runs the tests that reach
 the changed line on a copy of the tree until one fails: first those that reach little else, then
-the others, the quick ones first, up to some minutes. Which they are is measured first, with
-coverage, and kept in `.mutation` until a file changes that they depend on. What killed a mutant is
-kept there too, and runs before the others next time. Prints each survivor, to be read, the part
-that was killed, and its 95 % interval.
+the others and their neighbours, the quick ones first, up to some minutes. Which they are is
+measured first, with coverage, and kept in `.mutation` until a file changes that they depend on.
+What killed a mutant is kept there too, and runs before the others next time. Prints each survivor,
+to be read, the part that was killed, and its 95 % interval.
 
 Why not mutmut or cosmic-ray: mutmut 3.8 changes no code outside functions and in few with a
 decorator, and takes no sample; cosmic-ray 8.7 runs one command for all mutants, here the whole
@@ -85,7 +85,7 @@ PYTEST = ("-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-m", "not und
 KILLERS = "killers"
 BEGUN = "begun"
 #: Seconds of tests, as measured: at first those that reach little else, then all that fit.
-FIRST, ALL = 20.0, 400.0
+FIRST, ALL = 20.0, 500.0
 RULES = """\
 [run]
 dynamic_context = test_function
@@ -126,21 +126,28 @@ class Reached:
                 for line in numbits_to_nums(bits):
                     lines[line].add(test)
 
-    def tests(self, module: Path, first: int, last: int) -> list[str]:
-        """Return the tests that reach some lines, those that reach few modules first.
+    def tests(self, module: Path, first: int, last: int) -> tuple[list[str], list[str]]:
+        """Return the tests that reach some lines and those that may see what the lines did.
 
-        Lines that run only while the module is imported, or for all tests at once, are reached
-        by every test that enters the module. What the tests that run symdh in a process of its
-        own reach is not known: they come last.
+        The former begin with those that reach few modules. Lines that run only while the module
+        is imported, or for all tests at once, are reached by every test that enters the module.
+        The latter, the quick ones first, are the others of the same files, which look at results
+        that are computed once for many tests; and those that run symdh in a process of its own,
+        of which nothing is known.
         """
         lines = self.lines[module.as_posix()]
         found = set().union(*(lines.get(line, set()) for line in range(first, last + 1)))
         found = found or set().union(*lines.values())
-        others = {test for test in self.seconds if not self.breadth[test]}
-        return [
-            *sorted(found, key=lambda test: (self.breadth[test], self.seconds[test], test)),
-            *sorted(others, key=lambda test: (self.seconds[test], test)),
-        ]
+        files = {test.split(".", 1)[0] for test in found}
+        others = {
+            test
+            for test in self.seconds
+            if test.split(".", 1)[0] in files or not self.breadth[test]
+        }
+        return (
+            sorted(found, key=lambda test: (self.breadth[test], self.seconds[test], test)),
+            sorted(others - found, key=lambda test: (self.seconds[test], test)),
+        )
 
 
 def up_to(seconds: float, tests: list[str], reached: Reached) -> list[str]:
@@ -220,9 +227,9 @@ def draw(count: int, seed: int, layers: list[str], part: str) -> list[Mutant]:
 def is_killed(changed: Mutant) -> bool:
     """Run the tests of a mutant in a copy of the tree."""
     reached = reached_lines()
-    tests = reached.tests(changed.module, changed.first, changed.last)
-    first = up_to(FIRST, tests, reached)
-    others = [test for test in tests if test not in first]
+    reaching, others = reached.tests(changed.module, changed.first, changed.last)
+    first = up_to(FIRST, reaching, reached)
+    others += [test for test in reaching if test not in first]
     rest = up_to(ALL, sorted(others, key=reached.seconds.__getitem__), reached)
     killer = MUTATION / KILLERS / hashlib.sha256(changed.text).hexdigest()
     before = json.loads(killer.read_text()) if killer.is_file() else []
@@ -230,7 +237,7 @@ def is_killed(changed: Mutant) -> bool:
         tree = Path(folder, "tree")
         shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns(".*", "out", "__pycache__"))
         (tree / changed.module).write_bytes(changed.text)
-        for some in ([test for test in before if test in tests], first, rest):
+        for some in ([test for test in before if test in reached.seconds], first, rest):
             if some and fails(some, tree, reached):
                 killer.write_text(json.dumps(begun(tree)))
                 return True
