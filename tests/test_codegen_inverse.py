@@ -30,7 +30,7 @@ from symdh.codegen.inverse.found import Missing
 from symdh.codegen.inverse.lowering import inverse_program
 from symdh.codegen.inverse.polynomials import Polynomials
 from symdh.codegen.inverse.program import Compute, Kind, Program, Propose, Solve
-from symdh.codegen.inverse.steps import KINDS
+from symdh.codegen.inverse.steps import KINDS, lower_steps
 from symdh.codegen.inverse.trigonometric import Trigonometry
 from symdh.derivation.inverse.steps import RULES
 from symdh.errors import UnsupportedError
@@ -496,6 +496,14 @@ def test_nothing_is_computed_before_what_it_needs() -> None:
                     there |= set(statement.results)
                 case Propose():
                     assert all(leaves(node) <= there for node in statement.values)
+
+
+def test_cosines_have_the_numbers_of_their_joints() -> None:
+    form = inverse_kinematics(symdh.load(DATA / "tables" / "puma560.yaml")).form
+    assert form is not None
+    names = lower_steps(form, {}).names.values()
+    cosines = {name for name in names if name.startswith("c")}
+    assert cosines == {"c1", "c2", "c3", "c23", "c4", "c5", "c6"}
 
 
 def test_every_option_names_what_it_writes_twice_and_what_would_be_long() -> None:

@@ -55,6 +55,8 @@ from tools import has_instructions, require_tool
 
 TABLES = Path(__file__).parent / "data" / "tables"
 TURN = Robot("turn", STANDARD, (revolute(Q1),))
+#: What the comment of the kernel says of its own errors.
+CLAIM = r"At most (\d) ulp off for \|x\| <= 100, and (\d) ulp up to (\S+) rad"
 SPATIAL = Robot(
     "spatial", STANDARD, tuple(revolute(real(f"q{i}"), alpha=RIGHT, a=Integer(1)) for i in range(7))
 )
@@ -191,6 +193,11 @@ def test_the_kernel_is_as_exact_as_its_comment_says(
     kind: str, largest: float, ulps: float, flags: list[str], tmp_path: Path
 ) -> None:
     built = build(TURN, tmp_path, *flags, kind=kind)
+    (source,) = tmp_path.glob("turn*.c")
+    comment = " ".join(source.read_text().replace("*", " ").split())
+    near, far, limit = re.search(CLAIM, comment).groups()  # type: ignore[union-attr]
+    assert int(near if largest <= 100 else far) == ulps
+    assert largest <= float(limit.rstrip("f"))
     assert errors_in_ulp(built, hard_angles(largest, KINDS[kind][0])) <= ulps
 
 

@@ -19,7 +19,7 @@ import pytest
 from conftest import Runner
 from evaluate import MP, number, value_of
 from oracle import EXTENDED, elementary, read_arm, read_arm_file
-from sympy import Expr, ImmutableMatrix, Symbol, pi
+from sympy import Expr, ImmutableMatrix, Symbol, cos, pi, sin
 
 from symdh.cli.main import run
 from symdh.errors import TableError, UnsupportedError
@@ -37,6 +37,7 @@ from symdh.kinematics.rotation import (
     inverse_rates,
     named_sequence,
     nearest_rotation,
+    of_arm,
     quaternion,
     rates,
     rates_vanish,
@@ -44,7 +45,7 @@ from symdh.kinematics.rotation import (
 )
 from symdh.motion import rotation as turn
 from symdh.robot import Axis, Units
-from symdh.table import parse_expression, parse_point
+from symdh.table import load_table, parse_expression, parse_point
 from symdh.table.rotations import (
     parse_matrix,
     parse_rotations,
@@ -344,6 +345,13 @@ def test_random_compositions_agree_with_numpy() -> None:
         done = compose(steps)
         got = [[float(value_of(done.matrix[r, c], point)) for c in range(3)] for r in range(3)]
         assert np.abs(np.array(got) - expected).max() < 1e-14
+
+
+def test_the_orientation_of_an_arm_is_the_rotation_of_its_transform() -> None:
+    robot = load_table(str(TABLES / "planar_2r.yaml")).robot
+    c, s = cos(sum(robot.variables)), sin(sum(robot.variables))
+    found = of_arm(robot, 0, 2, {}, symbolic=True)
+    assert found.matrix == ImmutableMatrix([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
 
 # -- reading angles off ----------------------------------------------------------------------------

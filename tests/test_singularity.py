@@ -432,6 +432,13 @@ def test_an_arm_over_the_limit_says_so(
     assert "over symdh's limit" in " ".join(text.split())
 
 
+def test_as_many_minors_as_the_limit_allows_are_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    module = import_module("symdh.kinematics.singular.singularities")
+    monkeypatch.setattr(module, "MAX_MINORS", 7)
+    table = table_named("kuka_iiwa7")
+    assert singularities(load(table)).factors == found_for(table).factors
+
+
 def test_too_many_alternatives_are_not_written_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """The factors stand, and it is said that they are not all; see the same arm without a limit."""
     monkeypatch.setattr("symdh.kinematics.singular.conditions.MAX_ALTERNATIVES", 1)

@@ -11,7 +11,7 @@ CLOSE = 2e-3
 """How far a decimal may be from the angle that it seems to stand for, in radians."""
 
 _DENOMINATORS = (1, 2, 3, 4, 6)
-_LARGEST_TURNS = 2
+_LARGEST = 4  # times pi: two turns
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ def near_multiple(number: Expr) -> NearMultiple | None:
     for denominator in _DENOMINATORS:
         count = round(value / math.pi * denominator)
         difference = abs(count * math.pi / denominator - value)
-        if count and difference < CLOSE and abs(count) <= 2 * _LARGEST_TURNS * denominator:
+        if count and difference < CLOSE and abs(count) <= _LARGEST * denominator:
             return NearMultiple(Rational(count, denominator), difference)
     return None
 

@@ -38,15 +38,12 @@ class InverseTask:
     kind : Kind
     axes : tuple of int
         The coordinates of the position that are given, 0 to 2.
-    named : bool
-        Whether the user has named the task; else it was chosen.
     reachable_only : bool
         Whether the arm can reach some poses only, so that the goal must be one of these.
     """
 
     kind: Kind
     axes: tuple[int, ...]
-    named: bool
     reachable_only: bool
 
     @property
@@ -107,28 +104,28 @@ def inverse_task(robot: Robot, freedoms: int, text: str | None = None) -> Invers
     if text is not None:
         return _named(text, freedoms)
     if freedoms >= 6:
-        return InverseTask(Kind.POSE, (0, 1, 2), False, False)
+        return InverseTask(Kind.POSE, (0, 1, 2), False)
     lines = joint_lines(robot, _random_values(robot, 5))
     axes = moved_coordinates(robot)
     if not axes:
-        return InverseTask(Kind.ORIENTATION, (), False, freedoms < 3)
+        return InverseTask(Kind.ORIENTATION, (), freedoms < 3)
     if len(axes) == 2 and freedoms == 2 and _parallel(lines):
         if _places(robot, 2):
-            return InverseTask(Kind.POSITION, axes, False, False)
-        return InverseTask(Kind.PLANAR, axes, False, True)
+            return InverseTask(Kind.POSITION, axes, False)
+        return InverseTask(Kind.PLANAR, axes, True)
     if len(axes) == 2 and freedoms == 3 and _parallel(lines):
-        return InverseTask(Kind.PLANAR, axes, False, False)
+        return InverseTask(Kind.PLANAR, axes, False)
     if freedoms == 3 and _places(robot, 3):
-        return InverseTask(Kind.POSITION, axes, False, False)
-    return InverseTask(Kind.POSE, (0, 1, 2), False, True)
+        return InverseTask(Kind.POSITION, axes, False)
+    return InverseTask(Kind.POSE, (0, 1, 2), True)
 
 
 def _named(text: str, freedoms: int) -> InverseTask:
     words = [word for word in re.split(r"[\s,]+", text.strip().lower()) if word]
     if words == ["pose"]:
-        return InverseTask(Kind.POSE, (0, 1, 2), True, freedoms < 6)
+        return InverseTask(Kind.POSE, (0, 1, 2), freedoms < 6)
     if words == ["orientation"]:
-        return InverseTask(Kind.ORIENTATION, (), True, freedoms < 3)
+        return InverseTask(Kind.ORIENTATION, (), freedoms < 3)
     phi = "phi" in words
     letters = [word for word in words if word != "phi"]
     if letters and len(set(words)) == len(words) and all(x in ("x", "y", "z") for x in letters):
@@ -140,7 +137,7 @@ def _named(text: str, freedoms: int) -> InverseTask:
                 "lock joints with --lock, or ask for more"
             )
         kind = Kind.PLANAR if phi else Kind.POSITION
-        return InverseTask(kind, axes, True, len(words) > freedoms)
+        return InverseTask(kind, axes, len(words) > freedoms)
     raise UnsupportedError(
         f"there is no task {text!r}: write pose, orientation, or coordinates such as 'x y', "
         "'x y phi' and 'x y z'"
