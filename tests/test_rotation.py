@@ -462,6 +462,8 @@ def test_all_mistakes_of_a_line_are_told_that_can_be() -> None:
         ("1 0 0; 0 1 0; 0 0 1x", 20, "unexpected"),
         ("1,0,0,0,,0,0,0,1", 9, "expression is empty"),
         ("1 0 0 0 1 0 0 0 1m", 17, "this is a length, where a number is wanted"),
+        ("[1 0 0; 0 1 0; 0 0 1", 1, "unexpected character ["),
+        ("[[1,0,0],[0,1,0],[0,0,x y]]", 25, "unexpected"),
     ],
 )
 def test_wrong_matrices_are_told_at_their_column(text: str, column: int, says: str) -> None:
@@ -480,6 +482,9 @@ def test_wrong_matrices_are_told_at_their_column(text: str, column: int, says: s
         "0, -1, 0; 1, 0, 0; 0, 0, 1",
         " 0  -1 0;1 0 0; 0 0 cos(0) ",
         "0, cos(90 deg) - 1, 0, atan2(1, 1)*4/pi, 0, 0, 0, 0, 1",
+        "[0 -1 0; 1 0 0; 0 0 1]",
+        "[[0, -1, 0], [1, 0, 0], [0, 0, 1]]",
+        "[ [0 -1 0] [1 0 0] [0 0 1] ]",
     ],
 )
 def test_matrices_may_be_typed_in_many_ways(text: str) -> None:
@@ -605,6 +610,18 @@ def test_the_orientation_of_an_arm_agrees_with_the_oracle(
     assert np.abs(np.array(got["matrix"]) - expected).max() < 1e-14
     back = multiplied("zyz", np.array(got["euler"]["zyz"]["angles"]))
     assert np.abs(back - expected).max() < 1e-14
+
+
+def test_symbols_of_a_matrix_take_numbers(empty: Path, capsys: Capture) -> None:
+    matrix = "[n 0 sin(t); 0 1 0; -sin(t) 0 n]"
+    settings = ["--set", "n=0.6", "--set", "t=atan2(4, 3)"]
+    assert run(["rotate", "--matrix", matrix, *settings, "--format", "json"]) == 0
+    found = json.loads(capsys.readouterr().out)["matrix"]
+    assert np.abs(np.array(found) - [[0.6, 0, 0.8], [0, 1, 0], [-0.8, 0, 0.6]]).max() < 1e-15
+    assert run(["rotate", "--matrix", matrix, "--set", "t=1"]) == 2
+    assert "an angle needs a unit" in capsys.readouterr().err
+    assert run(["rotate", "--matrix", matrix, "--set", "p=1"]) == 2
+    assert "p is not" in capsys.readouterr().err
 
 
 def test_a_point_in_a_matrix(empty: Path, capsys: Capture) -> None:

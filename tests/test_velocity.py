@@ -251,6 +251,7 @@ def test_a_jacobian_of_many_joints_is_not_written_out() -> None:
     ("text", "point"),
     [
         ("0,0,0", (0, 0, 0)),
+        (" [0, 1/2,0]", (0, Rational(1, 2), 0)),
         ("10 mm, -0.5, a2/2", (Rational(1, 100), Rational(-1, 2), Symbol("a2", real=True) / 2)),
         ("L, 0, sqrt(2)*(1 + 1)", (Symbol("L", real=True), 0, parse_expression("2*sqrt(2)"))),
     ],
@@ -267,6 +268,8 @@ def test_points_are_read_in_the_units_of_the_table(text: str, point: tuple[Expr,
         ("1,2,theta1", 5, "moves a joint"),
         ("1,2,30 deg", 5, "angle"),
         ("1, ,2", 4, "empty"),
+        ("[1,2,3", 1, "unexpected character ["),
+        ("[1,2,3],", 9, "here are 4"),
         ("1,2,3,4", 8, "here are 4"),
     ],
 )

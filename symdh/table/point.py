@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 
 from sympy import Expr, Symbol
@@ -17,7 +18,7 @@ from symdh.table.units import LENGTH
 def parse_point(
     text: str, units: Units, name: str, joints: Collection[Symbol] = ()
 ) -> tuple[Expr, Expr, Expr]:
-    """Read ``0, 0, L`` or ``10 mm, 0, a4/2``.
+    """Read ``0, 0, L``, ``10 mm, 0, a4/2`` or ``[0, 0, L]``.
 
     Parameters
     ----------
@@ -66,7 +67,12 @@ def _length(offset: int, part: str, units: Units, joints: Collection[Symbol]) ->
 
 
 def _parts(text: str) -> list[tuple[int, str]]:
-    """Split at the commas outside brackets, each part with its offset."""
+    """Split at the commas outside parentheses, each part with its offset.
+
+    All of it may stand in square brackets.
+    """
+    if re.fullmatch(r"\s*\[[^\[\]]*\]\s*", text):
+        text = text.replace("[", " ").replace("]", " ")
     parts: list[tuple[int, str]] = []
     start = depth = 0
     for offset, character in enumerate(text):

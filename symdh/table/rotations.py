@@ -37,6 +37,7 @@ _EXTENSION = "x-"
 _HEAD = re.compile(r"([^\s(),;]+)[ \t]*(\(?)")
 _WORD = re.compile(r"[^\s,;]+")
 _GAP = re.compile(r"[ \t,;]*")
+_AS_BLANKS = str.maketrans("[]", "  ")
 _AXES = {f"R{axis.name.lower()}": axis for axis in Axis}
 _ABOUT = {"body": False, "fixed": True}
 _ABOUT_ALIASES = {
@@ -293,9 +294,11 @@ def _parts(node: Node, report: Report) -> Iterator[tuple[ScalarNode, int, int]]:
 def _split(text: str) -> Iterator[tuple[int, int]]:
     """Yield where the numbers of one text start and end.
 
-    They are separated by commas where there is one outside of brackets, else by blanks; rows may
-    be ended by semicolons in both cases.
+    They are separated by commas where there is one outside of parentheses, else by blanks; rows
+    may be ended by semicolons in both cases, and stand in square brackets as in other languages.
     """
+    if text.count("[") == text.count("]"):
+        text = text.translate(_AS_BLANKS)
     depths = _depths(text)
     commas = any(c == "," and not depth for c, depth in zip(text, depths, strict=True))
     breaks = ",;" if commas else "; \t"
@@ -306,8 +309,8 @@ def _split(text: str) -> Iterator[tuple[int, int]]:
         piece = text[start:end]
         # Between commas there must be something; several blanks are as good as one.
         if piece.strip() or (commas and end < len(text) and text[end] == ","):
-            lead = len(piece) - len(piece.lstrip())
-            yield start + lead if piece.strip() else start, end
+            lead = len(piece) - len(piece.lstrip()) if piece.strip() else 0
+            yield start + lead, start + lead + len(piece.strip())
         start = end + 1
 
 

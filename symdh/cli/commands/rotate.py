@@ -145,7 +145,9 @@ def _from_sheet(
         Step(each.axis, each.angle, About.FIXED if each.fixed else About.BODY)
         for each in sheet.rotations
     ]
-    robot = stand_in(steps, sheet.point, sheet.units, sheet.values, sheet.title)
+    angles = [step.angle for step in steps]
+    shown = sheet.point, sheet.units, sheet.values, sheet.title
+    robot = stand_in(angles, *shown, entries=sheet.matrix or ())
     robot = replace(robot, values={**robot.values, **arguments.assignment(robot, settings)})
     if sheet.matrix is not None:
         return of_matrix(robot, sheet.matrix, sheet.point, symbolic, tolerance)
