@@ -904,6 +904,17 @@ def test_literals_are_the_shortest_of_the_nearest_double(value: Expr, text: str)
     assert literal(value) == text
 
 
+@pytest.mark.parametrize(
+    ("length", "number", "found"),
+    [(sqrt(L1 - 1), Rational(1, 2), "sqrt(2)*I/2"), (1 / L1, Integer(0), "zoo")],
+)
+def test_values_that_make_no_real_length_are_named(length: Expr, number: Expr, found: str) -> None:
+    arm = Robot("arm", STANDARD, (revolute(Q1, a=length),), values={L1: number})
+    says = f"these values make {length} equal to {found}, which is not a real number"
+    with pytest.raises(UnsupportedError, match=re.escape(says)):
+        generate(arm, "c")
+
+
 @pytest.mark.parametrize("value", [Integer(10) ** 400, sqrt(-1), asin(2), Float("0.5"), pi**1000])
 def test_numbers_that_no_double_holds_are_refused(value: Expr) -> None:
     with pytest.raises(UnsupportedError):

@@ -24,9 +24,10 @@ from symdh.codegen.vectors import (
     vector,
 )
 from symdh.kinematics.chain import chain_word
+from symdh.kinematics.numeric import not_real
 from symdh.motion import Run, Word, cut_runs, fuse_to_turn
 from symdh.motion.turn import Turn
-from symdh.robot import Axis, Robot
+from symdh.robot import Axis, Motion, Robot
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,19 +90,24 @@ def lower_chain(
     Raises
     ------
     UnsupportedError
-        When the table holds something that has no code.
+        When the table holds something that has no code, or the values make an amount infinite or
+        complex.
     """
     known = dict(values or {})
-    word = tuple(
-        replace(motion, amount=motion.amount.xreplace(known))
-        for motion in chain_word(robot, "base", "tool")
-    )
+    word = tuple(_with_values(motion, known) for motion in chain_word(robot, "base", "tool"))
     rows = {j.variable: i for i, j in enumerate(robot.joints, 1) if j.variable is not None}
     lowering = Lowering(Graph(), rows, splits_sums=splits_sums)
     motions, turn = fuse_to_turn(word)
     # Angles are met in chain order, so that code reads c1, s1, c2, s2 ...
     runs = tuple(_lower_run(lowering, run) for run in cut_runs(motions))
     return Chain(lowering, word, runs, turn)
+
+
+def _with_values(motion: Motion, known: dict[Symbol, Expr]) -> Motion:
+    amount = motion.amount.xreplace(known)
+    if amount.is_real is False or amount.is_finite is False:
+        raise not_real(motion.amount, amount)
+    return replace(motion, amount=amount)
 
 
 def _lower_run(lowering: Lowering, run: Run) -> LoweredRun:
