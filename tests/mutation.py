@@ -84,8 +84,9 @@ PYTEST = ("-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-m", "not und
 #: What killed each mutant, a file each; the test that a run has begun last, in its tree.
 KILLERS = "killers"
 BEGUN = "begun"
-#: Seconds of tests, as measured: at first those that reach little else, then all that fit.
-FIRST, ALL = 20.0, 500.0
+#: Seconds of tests, as measured: at first those that reach little else, then all that fit. Of a
+#: test with many parameters some are tried, so that it takes no longer than `EACH`.
+FIRST, ALL, EACH = 20.0, 400.0, 4.0
 RULES = """\
 [run]
 dynamic_context = test_function
@@ -97,17 +98,34 @@ class Reached:
     """Which test functions reach which lines, and how long each takes.
 
     Tests are named ``test_file.test_function``; a parametrized one is one test.
+
+    Attributes
+    ----------
+    seconds : Counter of str
+        How long each test takes with the parameters that are tried.
+    every : dict of str to int
+        Each how many-th of its parameters is tried.
+    lines : dict of str to dict of int to set of str
+        The tests that reach each line of each module.
+    breadth : Counter of str
+        How many modules each test reaches.
     """
 
     def __init__(self, folder: Path) -> None:
         self.seconds: Counter[str] = Counter()
+        self.every: dict[str, int] = {}
         self.lines: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
         self.breadth: Counter[str] = Counter()
+        cases: Counter[str] = Counter()
         for report in sorted(folder.glob("*.xml")):
             for case in ET.parse(report).iter("testcase"):
                 module = case.attrib["classname"].rsplit(".", 1)[-1]
-                name = case.attrib["name"].split("[", 1)[0]
-                self.seconds[f"{module}.{name}"] += float(case.attrib["time"])
+                test = f"{module}.{case.attrib['name'].split('[', 1)[0]}"
+                self.seconds[test] += float(case.attrib["time"])
+                cases[test] += 1
+        for test, seconds in self.seconds.items():
+            self.every[test] = min(math.ceil(seconds / EACH) or 1, cases[test])
+            self.seconds[test] = seconds / self.every[test]
         for data in sorted(folder.glob("*.coverage")):
             self._read(data)
 
@@ -164,6 +182,11 @@ def up_to(seconds: float, tests: list[str], reached: Reached) -> list[str]:
 def as_files(test: str) -> str:
     module, name = test.split(".", 1)
     return f"tests/{module}.py::{name.replace('.', '::')}"
+
+
+def as_test(node: str) -> str:
+    file, _, name = node.partition("::")
+    return f"{Path(file).stem}.{name.split('[', 1)[0].replace('::', '.')}"
 
 
 def digest(name: str) -> str:
@@ -247,14 +270,25 @@ def is_killed(changed: Mutant) -> bool:
 def begun(tree: Path) -> list[str]:
     """Return the test that was begun last, none where a file of tests could not be imported."""
     note = tree / BEGUN
-    if not note.is_file():
-        return []
-    file, _, name = note.read_text().partition("::")
-    return [f"{Path(file).stem}.{name.split('[', 1)[0].replace('::', '.')}"]
+    return [as_test(note.read_text())] if note.is_file() else []
 
 
-class Beginning:
-    """Writes down which test begins."""
+class Sampling:
+    """Leaves parameters out, and writes down which test begins."""
+
+    def __init__(self, every: dict[str, int]) -> None:
+        self._every = every
+
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        """Keep some parameters of each test, the first among them."""
+        met: Counter[str] = Counter()
+        kept = []
+        for item in items:
+            test = as_test(item.nodeid)
+            if met[test] % self._every.get(test, 1) == 0:
+                kept.append(item)
+            met[test] += 1
+        items[:] = kept
 
     def pytest_runtest_logstart(self, nodeid: str) -> None:
         """Keep the name where it is found after the process has ended, however it ends."""
@@ -286,7 +320,9 @@ def fails(tests: list[str], tree: Path, reached: Reached) -> bool:
     sys.path[0] = str(tree)
     # A plugin that is loaded already is not rewritten, and need not be.
     loaded = ("-W", "ignore::pytest.PytestAssertRewriteWarning")
-    os._exit(pytest.main([*PYTEST, *loaded, *map(as_files, tests)], plugins=[Beginning()]))
+    os._exit(
+        pytest.main([*PYTEST, *loaded, *map(as_files, tests)], plugins=[Sampling(reached.every)])
+    )
 
 
 def interval(part: float, count: int) -> tuple[float, float]:
@@ -312,11 +348,13 @@ def main() -> int:
     drawn = draw(options.skip + options.count, options.seed, layers, options.module)
     drawn = drawn[options.skip :]
     unchanged = replace(drawn[0], text=(ROOT / drawn[0].module).read_bytes())
-    if is_killed(unchanged):
-        sys.exit(f"the tests of {unchanged.module} fail without any change")
+    reached_lines()  # once for all processes
     killed: Counter[str] = Counter()
     with get_context("fork").Pool(options.jobs, maxtasksperchild=1) as pool:
-        for each, dead in zip(drawn, pool.imap(is_killed, drawn), strict=True):
+        found = pool.imap(is_killed, [unchanged, *drawn])
+        if next(found):
+            sys.exit(f"the tests of {unchanged.module} fail without any change")
+        for each, dead in zip(drawn, found, strict=True):
             killed[each.module.parts[1]] += dead
             print(f"{'killed  ' if dead else 'SURVIVED'}  {each}", flush=True)
     for layer, count in sorted(Counter(each.module.parts[1] for each in drawn).items()):
