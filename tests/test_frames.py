@@ -533,13 +533,14 @@ def test_joints_between_given_frames_need_not_be_told() -> None:
     assert mechanism_from(GIVEN + "joints: [{x-mass: 3}]\nx-more: 1\n") == plain
 
 
-@pytest.mark.parametrize(
-    "vectors", ["approach: [0, 0, -1], normal: [1, 0, 0]", "sliding: [0, -1, 0], normal: [1, 0, 0]"]
-)
-def test_any_two_vectors_turn_the_tool(vectors: str) -> None:
-    # n = s x a by hand: (0, -1, 0) x (0, 0, -1) = (1, 0, 0).
-    tool = mechanism_from(f"{ONE}tool: {{point: [0, 0, 1], {vectors}}}\n").tool
-    assert tool == ToolFrame((0, 0, 1), approach=(0, 0, -1), sliding=(0, -1, 0))
+@pytest.mark.parametrize("given", ["approach", "sliding"])
+def test_any_two_vectors_turn_the_tool(given: str) -> None:
+    # n = s x a by hand: (2, 1, -2) x (1, 2, 2) = (6, -6, 3).
+    vectors = {"approach": "[1/3, 2/3, 2/3]", "sliding": "[2/3, 1/3, -2/3]"}
+    normal = "normal: [2/3, -2/3, 1/3]"
+    told = f"tool: {{point: [0, 0, 1], {given}: {vectors[given]}, {normal}}}\n"
+    approach, sliding = (tuple(Rational(x, 3) for x in v) for v in ((1, 2, 2), (2, 1, -2)))
+    assert mechanism_from(ONE + told).tool == ToolFrame((0, 0, 1), approach, sliding)
 
 
 def test_a_normal_along_the_approach_is_told_where_the_tool_is(

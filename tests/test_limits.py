@@ -109,7 +109,7 @@ LIMITS: dict[str, tuple[Reader, str, str, str]] = {
     "decimal exponent": (parse_expression, "1e30", "1e31", "decimal exponent over 30"),
     "exponent": (parse_expression, "2^32", "2^33", "exponent is over the limit of 32"),
     "root": (parse_expression, "2^(1/8)", "2^(1/9)", "a root over 8"),
-    "bits": (parse_expression, "1e30*1e30*1e15", "1e30*1e30*1e18", "over the limit of 256 bits"),
+    "bits": (parse_expression, "(2^32)^7*2^31", "(2^32)^7*2^31*2", "over the limit of 256 bits"),
     "name of a symbol": (parse_expression, "q" * 40, "q" * 41, "41 characters, over 40"),
     "bytes": (
         table,

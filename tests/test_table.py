@@ -422,6 +422,17 @@ def test_what_is_wrong_with_a_table(text: str, where: str, words: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("row", "is_hinted"),
+    [("0, 1, 5, 0, q1", True), ("0, q1, 0, q2, 0", False), ("0, 1, q1", False)],
+)
+def test_a_decimal_comma_is_suspected_between_numbers(row: str, is_hinted: bool) -> None:
+    with pytest.raises(TableError) as caught:
+        loads_table(f"{HEAD}columns: [alpha, a, d, theta]\nrows:\n  - [{row}]\n")
+    (found,) = caught.value.diagnostics
+    assert ("a decimal point is a point" in found.message) is is_hinted
+
+
+@pytest.mark.parametrize(
     "name",
     [
         "'***'",

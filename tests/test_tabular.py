@@ -286,6 +286,7 @@ HEADER = "| theta | d | a_i | alpha_i |\n|---|---|---|---|\n"
         (HEADER + "| q1 | 0 | 0 | 2\\*3 mm |\n", [("3:16", "a length, where an angle")]),
         (HEADER + "| $\\theta_1 + foo(1)$ | 0 | 0 | 0 |\n", [("3:15", "foo is not a known")]),
         (HEADER + "| q1 | 0 | $\\sqrt{2}$ | 0 |\n", [("3:13", "unexpected character \\")]),
+        (HEADER + "| q1\n", [("3:3", "1 cells")]),
         (HEADER + "| q1 | 0 | 0 |\n| q2 | 0 |  | 0 |\n", [("3:3", "3 cells"), ("4:12", "empty")]),
         (HEADER + "| q1 | 0 | 0 | 0 |\n\n" + HEADER, [("5:1", "the first is on line 1")]),
         ("| theta | d | a | alpha |\n|---|---|---|\n| q | 0 | 0 | 0 |\n", [("2:1", "3 cells")]),
