@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+import math
 from collections.abc import Callable, Iterator
 from importlib import import_module
 from pathlib import Path
@@ -13,7 +14,7 @@ import numpy as np
 import pytest
 from conftest import Runner
 from oracle import Arm
-from sympy import Add, Expr, Float, Rational, Symbol, cos, lambdify, pi, sin, symbols
+from sympy import Add, Expr, Float, Integer, Rational, Symbol, cos, lambdify, pi, sin, symbols
 from test_velocity import (
     TABLES,
     arm_of,
@@ -34,7 +35,7 @@ from symdh.kinematics.frame import Frame
 from symdh.kinematics.singular import Factor, Kind, Singularities, singularities
 from symdh.kinematics.singular.factors import HalfAngles
 from symdh.kinematics.singular.short_form import parallel_runs, short_form
-from symdh.kinematics.singular.solving import zeros
+from symdh.kinematics.singular.solving import _angles, zeros
 from symdh.kinematics.singular.trig_ring import TrigRing
 from symdh.kinematics.velocity import jacobian
 from symdh.render.terminal import render_chapters
@@ -430,6 +431,29 @@ def test_an_arm_over_the_limit_says_so(
         _ = found.product
     text = render_chapters([chapter(Style(robot), found)])
     assert "over symdh's limit" in " ".join(text.split())
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "c", "count"),
+    [
+        (3, 4, 2, 2),
+        (3, -4, 2, 2),
+        (0, 3, 1, 2),
+        (2, 0, -1, 2),
+        (1, -5, 0, 2),
+        (0, 2, 0, 2),
+        (2, 0, 0, 2),
+        (3, 0, 3, 1),
+        (3, 0, -3, 1),
+        (0, 3, 3, 1),
+        (0, 3, -3, 1),
+    ],
+)
+def test_every_angle_of_an_equation(a: int, b: int, c: int, count: int) -> None:
+    """Put in, as numbers: a cos x + b sin x + c = 0."""
+    angles = [float(x.evalf(20)) for x in _angles(Integer(a), Integer(b), Integer(c))]
+    assert all(abs(a * math.cos(x) + b * math.sin(x) + c) < 1e-14 for x in angles)
+    assert len({round(math.cos(x) + 2 * math.sin(x), 9) for x in angles}) == len(angles) == count
 
 
 def test_as_many_minors_as_the_limit_allows_are_taken(monkeypatch: pytest.MonkeyPatch) -> None:
