@@ -14,7 +14,7 @@ import jsonschema
 import pytest
 import yaml
 from conftest import Runner
-from sympy import Float, Integer, Rational, Symbol, cos, pi
+from sympy import Expr, Float, Integer, Rational, Symbol, cos, pi
 
 from symdh.errors import Diagnostic, ReadError, Severity, TableError
 from symdh.robot import (
@@ -39,6 +39,7 @@ from symdh.table import (
 )
 from symdh.table.headers import LABELS, PARAMETERS, TYPE, VARIABLE, column_name
 from symdh.table.joint_type import TYPES
+from symdh.table.near_pi import near_multiple
 from symdh.table.reader import KEYS
 from symdh.table.schema import SCHEMA_FILE, schema_text
 from symdh.table.starter import STARTER
@@ -419,6 +420,23 @@ def test_what_is_wrong_with_a_table(text: str, where: str, words: str) -> None:
     found = found_in(text)
     assert where in [place for place, _ in found]
     assert words in dict(found)[where]
+
+
+@pytest.mark.parametrize(
+    ("decimal", "multiple"),
+    [
+        ("1.5708", Rational(1, 2)),
+        ("-2.094", Rational(-2, 3)),
+        ("12.5664", 4),
+        ("13.08997", None),  # pi/6 over two turns
+        ("1.55", None),
+        ("0.001", None),
+        ("3", None),
+    ],
+)
+def test_what_a_decimal_may_stand_for(decimal: str, multiple: Expr | None) -> None:
+    found = near_multiple(Rational(decimal))
+    assert (found and found.multiple) == multiple
 
 
 @pytest.mark.parametrize(

@@ -199,6 +199,8 @@ def test_decimals_near_a_multiple_of_15_degrees_are_that() -> None:
         ("-4.6e-16", 0),
         ("1.2e-300", 0),
         ("+3.14159", pi),
+        ("-12.566371", -4 * pi),
+        ("12.828170", Rational("12.828170")),  # 15 degrees over two turns
         ("1.57", Rational("1.57")),
         ("0.0001", Rational("0.0001")),
         (".5", Rational("0.5")),
