@@ -575,8 +575,8 @@ import symdh.table
 from symdh.cli.main import main
 
 def wait(path):
-    print("loading", flush=True)
     try:
+        print("loading", flush=True)
         time.sleep(60)
     finally:
         print("clearing up", flush=True)
@@ -593,17 +593,17 @@ main()
     ("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)], ids=["INT", "TERM"]
 )
 def test_a_signal_stops_without_a_word(number: int, status: int, arm: Path) -> None:
-    process = subprocess.Popen(
+    with subprocess.Popen(
         [sys.executable, "-c", WAITING],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-    )
-    assert process.stdout is not None
-    for expected in (b"loading\n", b"clearing up\n"):
-        assert process.stdout.readline() == expected
-        process.send_signal(number)  # the second one does not cut the clearing up short
-    out, err = process.communicate(timeout=20)
+    ) as process:
+        assert process.stdout is not None
+        for expected in (b"loading\n", b"clearing up\n"):
+            assert process.stdout.readline() == expected
+            process.send_signal(number)  # the second one does not cut the clearing up short
+        out, err = process.communicate(timeout=20)
     assert (process.returncode, out, err) == (status, b"cleared up\n", b"")
     assert names() == {"arm.yaml"}
 
