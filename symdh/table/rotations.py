@@ -306,11 +306,11 @@ def _split(text: str) -> Iterator[tuple[int, int]]:
     for end in range(len(text) + 1):
         if end < len(text) and (depths[end] or text[end] not in breaks):
             continue
-        piece = text[start:end]
+        number = text[start:end].strip()
         # Between commas there must be something; several blanks are as good as one.
-        if piece.strip() or (commas and end < len(text) and text[end] == ","):
-            lead = len(piece) - len(piece.lstrip()) if piece.strip() else 0
-            yield start + lead, start + lead + len(piece.strip())
+        if number or (commas and end < len(text) and text[end] == ","):
+            first = text.index(number, start)
+            yield first, first + len(number)
         start = end + 1
 
 
