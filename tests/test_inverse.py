@@ -50,6 +50,7 @@ from symdh.kinematics.inverse.goal import goal_of
 from symdh.kinematics.inverse.inverse import InverseKinematics, Method, inverse_kinematics
 from symdh.kinematics.inverse.pool import Combination
 from symdh.kinematics.inverse.refine import refined
+from symdh.kinematics.inverse.ring import InverseRing
 from symdh.kinematics.inverse.roots import _roots, real_angles
 from symdh.kinematics.inverse.search import closed_form
 from symdh.kinematics.inverse.solution import ClosedForm, Rule, Tried
@@ -764,6 +765,26 @@ def test_two_equations_may_lose_an_angle_that_stands_alike_in_both() -> None:
     assert_solved(short_arm(1641))
 
 
+def test_what_is_divided_by_when_an_angle_is_eliminated_is_known() -> None:
+    """Both equations hold theta_2 behind c_4, and c_4 is what is looked for."""
+    found = assert_solved("""
+name: arm
+convention: standard
+units: {length: m}
+joints:
+  - {a: 0.3, alpha: 90 deg, theta: theta1, d: 0}
+  - {a: 0, alpha: 90 deg, theta: theta2 + 10 deg, d: 0.2}
+  - {a: 0.1, alpha: 0, theta: 0, d: q3}
+  - {a: 0, alpha: 90 deg, theta: theta4, d: 0.1}
+  - {a: 0, alpha: 90 deg, theta: 90 deg, d: q5}
+  - {a: 0, alpha: 0, theta: theta6, d: 0}
+""")
+    assert found.form is not None
+    assert_introduced(found.form)
+    (step,) = (step for step in found.form.steps if step.rule is Rule.HALF_ANGLE)
+    assert step.scales
+
+
 # ---------------------------------------------------------------- what numbers a goal is made of
 
 
@@ -998,26 +1019,39 @@ def test_each_step_tells_its_unknown_once_and_compiles_to_latex(table: Path) -> 
 
 @each_closed
 def test_symbols_are_introduced_before_they_are_used(table: Path) -> None:
-    """An unknown that a step uses, and a name of a known part, has been found before."""
     form = derived(table)[0].form
     assert form is not None
+    assert_introduced(form)
+
+
+def assert_introduced(form: ClosedForm) -> None:
+    """An unknown that a step uses, and a name of a known part, has been found before.
+
+    What an elimination has left is solved for its own unknown, and may hold it.
+    """
     ring = form.ring
     known: set[int] = set()
     named: set[int] = set()
     for step in form.steps:
-        elements = [element for _, element in step.definitions]
-        if step.rule is not Rule.HALF_ANGLE:
-            elements += step.coefficients
-        for element in elements:
-            for powers in element:
-                for k, power in enumerate(powers):
-                    if power and k < 2 * len(ring.forms):
-                        assert k // 2 in known
-                    if power and k >= ring.first_name:
-                        assert k in named
+        own = {step.unknown} if step.rule is Rule.HALF_ANGLE else set()
+        elements = *(element for _, element in step.definitions), *step.scales
+        for found, uses in ((known, elements), (known | own, step.coefficients)):
+            for element in uses:
+                assert unknowns_in(ring, element) <= found
+                assert {k for k in generators_in(element) if k >= ring.first_name} <= named
         named |= {generator for generator, _ in step.definitions}
         assert {part for _, part in step.parts} <= known
         known.add(step.unknown)
+
+
+def generators_in(element: Any) -> set[int]:
+    return {k for powers in element for k, power in enumerate(powers) if power}
+
+
+def unknowns_in(ring: InverseRing, element: Any) -> set[int]:
+    angles = 2 * len(ring.forms)
+    found = [k for k in generators_in(element) if k < ring.unknown_gens]
+    return {k // 2 if k < angles else k - angles + len(ring.forms) for k in found}
 
 
 def test_no_equation_is_longer_than_it_needs_to_be() -> None:

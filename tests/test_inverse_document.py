@@ -694,6 +694,17 @@ def test_a_quotient_by_one_is_no_fraction() -> None:
     assert text(writer.quotient(half, Integer(-1))) == "-1/2 a₁"
 
 
+def test_squares_of_what_stands_alone_are_divided_by_nothing() -> None:
+    """r_33 is the first component of a vector, what k_3 stands for a_1 times the second."""
+    text = arm_told(
+        arm_of(
+            "  - [theta1, 0, a1, 90]\n  - [theta2 + 10 deg, d2, 0, 90]\n  - [0, q3, a3, 0]\n"
+            "  - [theta4, d4, 0, 90]\n  - [90 deg, q5, 0, 90]\n  - [theta6, 0, 0, 0]\n"
+        )
+    )
+    assert "r₃₃² + k₃²/a₁² = [cos 10°]² c₄² + [sin 10°]² c₄²" in text
+
+
 def test_nothing_is_named_about_the_zero_of_a_sum() -> None:
     """Of the angle of one joint the axes beside it can be told, of that of several they cannot."""
     form = writer_of(table_found("minimover_5r")).form

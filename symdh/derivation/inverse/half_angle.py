@@ -63,9 +63,7 @@ def _eliminated(telling: Telling, x: int) -> list[Block]:
     told = telling.introduced()
     if step.scales:
         l_1, l_2 = (writer.form.ring.expression(scale) for scale in step.scales)
-        left: Node = Sum(
-            tuple(Fraction(write(c**2), write(s**2)) for c, s in ((c_1, l_1), (c_2, l_2)))
-        )
+        left: Node = Sum(tuple(writer.quotient(c**2, s**2) for c, s in ((c_1, l_1), (c_2, l_2))))
         p, q = (
             _divided(telling, element, a, l_1)
             for element, a in zip(step.coefficients, (a_1, b_1), strict=False)
@@ -74,7 +72,8 @@ def _eliminated(telling: Telling, x: int) -> list[Block]:
         why = (
             *("The left sides are ", write(l_1), " and ", write(l_2)),
             *(" times the components of one vector along perpendicular directions. "),
-            *("Divided by these, squared and added, they are its length, and ", writer.unknown(x)),
+            *("Divided by these, squared and added, they give the square of its length, and ",),
+            writer.unknown(x),
             " drops out:",
         )
     else:

@@ -46,7 +46,7 @@ def eliminate(state: State) -> tuple[Step, ...]:
                 added |= state.pool.add(element, source, (), parents, made) is not None
         if state.vanishes(state.ring.reduced(first[0] * second[1] - second[0] * first[1])):
             continue
-        scales = _scales(state, first, second)
+        scales = _scales(y, first, second)
         degree = _degree(state, y, (*first, *second), scales)
         size = sum(map(len, (*first, *second)))
         if 0 < degree <= MOST_DEGREE and (best is None or (degree, size) < best[0]):
@@ -128,21 +128,25 @@ def _differences(state: State, first: Linear, second: Linear) -> Iterator[Elemen
     yield ring.reduced(p * c_2 - q * c_1)
 
 
-def _scales(state: State, first: Linear, second: Linear) -> tuple[Element, ...]:
-    """Return l_1 and l_2 where Pieper's combination serves, else nothing."""
+def _scales(y: int, first: Linear, second: Linear) -> tuple[Element, ...]:
+    """Return l_1 and l_2, free of y, where Pieper's combination serves, else nothing."""
     (a_1, b_1, _), (a_2, b_2, _) = first, second
     if not (a_1 and b_1 and a_2 and b_2):
         return ()
-    l_1, (p_1, q_1) = _content(a_1, b_1)
-    l_2, (p_2, q_2) = _content(a_2, b_2)
+    l_1, (p_1, q_1) = _content(y, a_1, b_1)
+    l_2, (p_2, q_2) = _content(y, a_2, b_2)
     crosswise = (p_1 == q_2 and q_1 == -p_2) or (p_1 == -q_2 and q_1 == p_2)
     return (l_1, l_2) if crosswise else ()
 
 
-def _content(a: Element, b: Element) -> tuple[Element, tuple[Element, Element]]:
-    """Take the common monomial, with a rational factor, out of two elements."""
+def _content(y: int, a: Element, b: Element) -> tuple[Element, tuple[Element, Element]]:
+    """Take the common monomial, with a rational factor, out of two elements.
+
+    The cosine and the sine of y stay where they are, for y is not known yet.
+    """
     terms = [*a.terms(), *b.terms()]
-    common = tuple(map(min, zip(*(powers for powers, _ in terms), strict=True)))
+    least = tuple(map(min, zip(*(powers for powers, _ in terms), strict=True)))
+    common = (*least[: 2 * y], 0, 0, *least[2 * y + 2 :])
     domain = a.ring.domain
     factor = abs(terms[0][1])
     for _, coefficient in terms[1:]:
