@@ -52,6 +52,7 @@ FILES = (
     "table",
     "motion",
     "tabular",
+    "keys",
     "kinematics",
     "rotation",
     "urdf",

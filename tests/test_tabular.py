@@ -331,13 +331,6 @@ def test_markup_is_taken_out(text: str, plain: str) -> None:
     assert places == () or (len(places), places[-1]) == (len(plain) + 1, len(text))
 
 
-def test_a_misspelt_convention_is_no_missing_one() -> None:
-    with pytest.raises(TableError) as caught:
-        loads_table("convension: standard\ncolumns: [theta, d, a, alpha]\nrows: [[q, 0, 0, 0]]\n")
-    (only,) = caught.value.diagnostics
-    assert "did you mean convention?" in only.message
-
-
 # There and back, and on the command line
 
 

@@ -14,7 +14,7 @@ poses by rows.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -35,6 +35,7 @@ from symdh.mechanism import (
 from symdh.robot import JointType, Units
 from symdh.table.cells import Cell, CellReader, scalar
 from symdh.table.joint_type import TYPES
+from symdh.table.keys import Keys, read_keys
 from symdh.table.labels import default_name, read_name, read_title
 from symdh.table.names import CONSTANT, canonical_name, why_reserved
 from symdh.table.nodes import MappingNode, Node, ScalarNode, SequenceNode, parse_nodes
@@ -59,7 +60,6 @@ JOINT_KEYS = ("type", "variable", "point", "direction", "home", "z", "notes")
 TOOL_KEYS = ("point", "approach", "sliding", "normal")
 FRAME_KEYS = ("x", "origin")
 _ALIASES = {"axes": "joints", "q": "variable", "axis": "direction", "position": "point"}
-_EXTENSION = "x-"
 _REVERSE = "reverse"
 _LOCATION = ("point", "direction")
 _NOWHERE: Vector = (ZERO, ZERO, ZERO)
@@ -118,7 +118,8 @@ class _Reader:
         self.reader = CellReader(self.report, Units())
 
     def read(self) -> LoadedMechanism:
-        sections = self._mapping(parse_nodes(self.source), KEYS, "the file")
+        keys = self._mapping(parse_nodes(self.source), KEYS, "the file")
+        sections = keys.nodes
         report = self.report
         self.reader = CellReader(report, read_units(sections.get("units"), report))
         convention = (
@@ -129,7 +130,7 @@ class _Reader:
         matrices = sections.get("matrices")
         poses = self._matrices(matrices)
         if matrices is None:
-            axes = self._joints(sections.get("joints"))
+            axes = self._joints(keys)
         else:
             # Counted as they stand in the file: a frame with an error still has its joint.
             written = len(matrices.items) if isinstance(matrices, SequenceNode) else 1
@@ -163,19 +164,11 @@ class _Reader:
         )
         return LoadedMechanism(mechanism, report.diagnostics(), self.source, self.places)
 
-    def _mapping(self, node: Node, known: Sequence[str], where: str) -> dict[str, Node]:
-        """Return the values of a mapping by their keys; an unknown key is an error."""
-        if not isinstance(node, MappingNode):
-            self.report.error(node.place(), f"{where} must be a mapping of keys")
-            return {}
-        found = {}
-        for key, value in node.items:
-            if key.text in known:
-                found[key.text] = value
-            elif not key.text.startswith(_EXTENSION):
-                hint = did_you_mean(key.text, known, _ALIASES)
-                self.report.error(key.place(), f"key {brief(key.text)} unknown in {where}{hint}")
-        return found
+    def _mapping(self, node: Node, known: Collection[str], where: str) -> Keys:
+        if isinstance(node, MappingNode):
+            return read_keys(node, known, self.report, _ALIASES, f" in {where}")
+        self.report.error(node.place(), f"{where} must be a mapping of keys")
+        return Keys({}, frozenset(known))  # nothing more is said about keys
 
     def _matrices(self, node: Node | None) -> list[Pose]:
         """Read frames L_0 .. L_n, each as three or four rows of four numbers."""
@@ -231,9 +224,11 @@ class _Reader:
                 axes.append(axis)
         return axes
 
-    def _joints(self, node: Node | None) -> list[JointAxis]:
+    def _joints(self, keys: Keys) -> list[JointAxis]:
+        node = keys.nodes.get("joints")
         if node is None:
-            self.report.error(START, "joints is missing: the list of joint axes")
+            if keys.lack("joints"):
+                self.report.error(START, "joints is missing: the list of joint axes")
             return []
         if not isinstance(node, SequenceNode) or not node.items:
             self.report.error(node.place(), "joints must be a list of axes, each starting with -")
@@ -257,12 +252,13 @@ class _Reader:
             self.report.error(node.place(), f"joint {number} must be a mapping: {{point: ...}}")
             return None
         known = JOINT_KEYS if located else [k for k in JOINT_KEYS if k not in _LOCATION]
-        keys = self._mapping(node, known, f"joint {number}")
+        found = self._mapping(node, known, f"joint {number}")
+        keys = found.nodes
         for key in _LOCATION if located else ():
-            if key not in keys:
-                self.report.error(node.place(), f"missing key {key} in joint {number}")
-            else:
+            if key in keys:
                 self.places["joint", number, key] = keys[key].place()
+            elif found.lack(key):
+                self.report.error(node.place(), f"missing key {key} in joint {number}")
         kind = self._word(keys.get("type"), "type of joint", _TYPES, JointType.REVOLUTE)
         variable = self._variable(number, kind, keys.get("variable"), before)
         point: Vector | None = _NOWHERE
@@ -302,10 +298,11 @@ class _Reader:
         if node is None:
             return None
         self.places["tool",] = node.place()
-        keys = self._mapping(node, TOOL_KEYS, "tool")
+        written = self._mapping(node, TOOL_KEYS, "tool")
+        keys = written.nodes
         for key, value in keys.items():
             self.places["tool", key] = value.place()
-        if isinstance(node, MappingNode) and "point" not in keys:
+        if written.lack("point"):
             self.report.error(node.place(), "missing key point in tool")
         point = self._vector(keys.get("point"), LENGTH, "point")
         found = {
@@ -327,12 +324,12 @@ class _Reader:
         if node is None:
             return {}
         numbers = [str(i) for i in range(n + 1)]
-        entries = self._mapping(node, numbers, "frames")
+        entries = self._mapping(node, numbers, "frames").nodes
         return {int(key): self._frame(int(key), value) for key, value in entries.items()}
 
     def _frame(self, number: int, node: Node) -> FrameChoice:
         self.places["frame", number] = node.place()
-        keys = self._mapping(node, FRAME_KEYS, f"frame {number}")
+        keys = self._mapping(node, FRAME_KEYS, f"frame {number}").nodes
         for key, value in keys.items():
             self.places["frame", number, key] = value.place()
         origin = self._vector(keys.get("origin"), LENGTH, "origin")

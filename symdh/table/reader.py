@@ -11,14 +11,14 @@ from symdh.table.cells import CellReader
 from symdh.table.form import form_of
 from symdh.table.headers import Columns, read_columns
 from symdh.table.joints import DIMENSIONS, read_joints
+from symdh.table.keys import Keys, read_keys
 from symdh.table.labels import default_name, read_name, read_title
-from symdh.table.nodes import MappingNode, Node
+from symdh.table.nodes import Node
 from symdh.table.numbers import read_limits, read_values
 from symdh.table.report import Report
 from symdh.table.rows import Row, rows_of_columns, rows_of_joints
 from symdh.table.settings import read_convention, read_units, units_of_columns
 from symdh.table.source import START, Source
-from symdh.table.suggest import brief, did_you_mean
 from symdh.table.uses import dimensions_of_symbols
 from symdh.table.words import PlacedMotion, read_word
 
@@ -44,8 +44,6 @@ _KEY_ALIASES = {
     "description": "notes",
     "comment": "notes",
 }
-EXTENSION = "x-"
-"""Keys that start so belong to other tools and are left alone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,11 +71,11 @@ def read_table(source: Source) -> LoadedTable:
     """
     report = Report(source)
     form = form_of(source)
-    root = form.nodes(source)
-    sections = _sections(root, report)
+    keys = read_keys(form.nodes(source), KEYS, report, _KEY_ALIASES)
+    sections = keys.nodes
     columns = _read_columns(sections, report)
     # A misspelt key has its own message.
-    advice = "" if _is_misspelt("convention", root) else form.convention
+    advice = "" if "convention" in keys.meant else form.convention
     convention = read_convention(sections.get("convention"), report, columns.teller, advice)
     name = read_name(sections["name"], report) if "name" in sections else None
     title = read_title(sections["title"], report) if "title" in sections else None
@@ -87,7 +85,7 @@ def read_table(source: Source) -> LoadedTable:
     base = _read_motions("base", sections, reader)
     tool = _read_motions("tool", sections, reader)
     outer = [placed.cell for placed in (*base, *tool)]
-    rows = read_joints(_read_rows(sections, columns, report), outer, reader)
+    rows = read_joints(_read_rows(keys, columns, report), outer, reader)
 
     cells = [*outer, *(cell for row in rows for cell in row.cells.values())]
     uses = dimensions_of_symbols((cell.value, cell.dimension) for cell in cells)
@@ -112,34 +110,15 @@ def read_table(source: Source) -> LoadedTable:
     return LoadedTable(robot, report.diagnostics())
 
 
-def _sections(root: MappingNode, report: Report) -> dict[str, Node]:
-    """Return the nodes of the top level by their keys."""
-    sections = {}
-    for key, node in root.items:
-        if key.text in KEYS:
-            sections[key.text] = node
-        elif not key.text.startswith(EXTENSION):
-            hint = did_you_mean(key.text, KEYS, _KEY_ALIASES)
-            report.error(key.place(), f"key {brief(key.text)} unknown{hint}")
-    return sections
-
-
-def _is_misspelt(key: str, root: MappingNode) -> bool:
-    """Say whether an unknown key of the table is taken for `key`."""
-    meant = did_you_mean(key, (key,))
-    unknown = (each.text for each, _ in root.items if each.text not in KEYS)
-    return any(did_you_mean(each, KEYS, _KEY_ALIASES) == meant for each in unknown)
-
-
 def _read_columns(sections: Mapping[str, Node], report: Report) -> Columns:
     if "columns" in sections and "rows" in sections and "joints" not in sections:
         return read_columns(sections["columns"], report)
     return Columns()
 
 
-def _read_rows(sections: Mapping[str, Node], header: Columns, report: Report) -> list[Row]:
+def _read_rows(keys: Keys, header: Columns, report: Report) -> list[Row]:
     """Read the rows in whichever spelling the table has them."""
-    joints, columns, rows = (sections.get(key) for key in ("joints", "columns", "rows"))
+    joints, columns, rows = (keys.nodes.get(key) for key in ("joints", "columns", "rows"))
     if joints is not None:
         for other in (columns, rows):
             if other is not None:
@@ -147,11 +126,11 @@ def _read_rows(sections: Mapping[str, Node], header: Columns, report: Report) ->
         return rows_of_joints(joints, report)
     if columns is not None and rows is not None:
         return rows_of_columns(header, rows, report)
-    if columns is not None:
+    if columns is not None and keys.lack("rows"):
         report.error(columns.place(), "columns without rows")
-    elif rows is not None:
+    elif rows is not None and keys.lack("columns"):
         report.error(rows.place(), "rows without columns: say `columns: [alpha, a, d, theta]`")
-    else:
+    elif keys.lack("joints", "columns", "rows"):
         report.error(START, "joints is missing: the list of rows (or columns and rows)")
     return []
 

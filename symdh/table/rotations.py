@@ -16,9 +16,10 @@ from sympy import Expr, Symbol
 from symdh.errors import Diagnostic
 from symdh.robot import Axis, Units
 from symdh.table.cells import Cell, CellReader, scalar
+from symdh.table.keys import read_keys
 from symdh.table.labels import read_title
 from symdh.table.lexer import ExpressionError
-from symdh.table.nodes import MappingNode, Node, ScalarNode, SequenceNode, parse_nodes
+from symdh.table.nodes import Node, ScalarNode, SequenceNode, parse_nodes
 from symdh.table.numbers import read_values
 from symdh.table.report import Report
 from symdh.table.settings import read_units
@@ -32,7 +33,6 @@ NO_UNITS = Units()
 
 KEYS = ("title", "units", "rotations", "matrix", "point", "values", "notes")
 _KEY_ALIASES = {"steps": "rotations", "rotation": "rotations", "name": "title", "r": "matrix"}
-_EXTENSION = "x-"
 
 _HEAD = re.compile(r"([^\s(),;]+)[ \t]*(\(?)")
 _WORD = re.compile(r"[^\s,;]+")
@@ -99,7 +99,8 @@ def read_rotation_sheet(source: Source) -> RotationSheet:
         With every mistake at its line and column.
     """
     report = Report(source)
-    sections = _sections(parse_nodes(source), report)
+    keys = read_keys(parse_nodes(source), KEYS, report, _KEY_ALIASES)
+    sections = keys.nodes
     title = read_title(sections["title"], report) if "title" in sections else None
     reader = CellReader(report, read_units(sections.get("units"), report))
     given, cells = _read_rotations(sections.get("rotations"), reader)
@@ -107,7 +108,7 @@ def read_rotation_sheet(source: Source) -> RotationSheet:
     point = _read_list(sections.get("point"), "point", LENGTH, 3, reader)
     if "rotations" in sections and "matrix" in sections:
         report.error(sections["matrix"].place(), "give either rotations or a matrix")
-    if "rotations" not in sections and "matrix" not in sections:
+    if keys.lack("rotations", "matrix"):
         report.error(START, "rotations is missing: the list of rotations (or a matrix)")
     cells += [*(matrix or ()), *(point or ())]
     uses = dimensions_of_symbols((cell.value, cell.dimension) for cell in cells)
@@ -162,17 +163,6 @@ def _line(text: str, name: str) -> tuple[ScalarNode, CellReader]:
     if "\n" in source.text:
         raise source.error(node.place(source.text.index("\n")), "this must stand on one line")
     return node, CellReader(report, NO_UNITS)
-
-
-def _sections(root: MappingNode, report: Report) -> dict[str, Node]:
-    sections = {}
-    for key, node in root.items:
-        if key.text in KEYS:
-            sections[key.text] = node
-        elif not key.text.startswith(_EXTENSION):
-            hint = did_you_mean(key.text, KEYS, _KEY_ALIASES)
-            report.error(key.place(), f"key {brief(key.text)} unknown{hint}")
-    return sections
 
 
 def _read_rotations(

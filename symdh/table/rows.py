@@ -10,7 +10,7 @@ from symdh.table.headers import COLUMN_ALIASES, COLUMNS, PARAMETERS, Columns, co
 from symdh.table.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from symdh.table.report import Report
 from symdh.table.source import Place
-from symdh.table.suggest import brief, did_you_mean
+from symdh.table.suggest import brief, nearest, question
 from symdh.table.units import Unit
 
 MAX_JOINTS = 200
@@ -45,8 +45,7 @@ def rows_of_joints(node: Node, report: Report) -> list[Row]:
     rows = []
     for number, item in enumerate(_counted(node, "joints", report), start=1):
         if isinstance(item, MappingNode):
-            cells = _cells_of_mapping(item, report)
-            rows.append(_complete_row(number, item.place(), cells, report))
+            rows.append(_row_of_mapping(number, item, report))
         else:
             message = f"row {number} must be a mapping: {{theta: ..., d: ..., a: ..., alpha: ...}}"
             report.error(item.place(), message)
@@ -101,23 +100,21 @@ def _refuse_no_list(key: str, node: Node, report: Report) -> None:
         report.error(node.place(), f"{key} must be a list of rows, each starting with -")
 
 
-def _cells_of_mapping(node: MappingNode, report: Report) -> dict[str, Node]:
+def _row_of_mapping(number: int, node: MappingNode, report: Report) -> Row:
     cells: dict[str, Node] = {}
+    meant = set()
     for key, value in node.items:
         name = column_name(key.text)
         if name is None:
-            hint = did_you_mean(key.text, COLUMNS, COLUMN_ALIASES)
-            report.error(key.place(), f"key {brief(key.text)} unknown in a row{hint}")
+            right = nearest(key.text, COLUMNS, COLUMN_ALIASES)
+            meant.add(right)
+            report.error(key.place(), f"key {brief(key.text)} unknown in a row{question(right)}")
         elif name in cells:
             report.error(key.place(), f"key {key.text} is given twice; both are {name}")
         else:
             cells[name] = value
-    return cells
-
-
-def _complete_row(number: int, place: Place, cells: Mapping[str, Node], report: Report) -> Row:
-    missing = [name for name in PARAMETERS if name not in cells]
+    missing = [name for name in PARAMETERS if name not in cells and name not in meant]
     if missing:
         noun = "key" if len(missing) == 1 else "keys"
-        report.error(place, f"missing {noun} {', '.join(missing)} in row {number}")
-    return Row(number, place, cells)
+        report.error(node.place(), f"missing {noun} {', '.join(missing)} in row {number}")
+    return Row(number, node.place(), cells)

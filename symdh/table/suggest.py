@@ -16,13 +16,13 @@ def brief(written: str) -> str:
     return line if len(line) <= MAX_SHOWN else f"{line[:MAX_SHOWN]}…"
 
 
-def did_you_mean(
+def nearest(
     word: str,
     known: Iterable[str],
     aliases: Mapping[str, str] | None = None,
     likeness: float = 0.6,
-) -> str:
-    """Return ``"; did you mean X?"`` for the known word nearest to `word`, or ``""``.
+) -> str | None:
+    """Return the known word that is most like `word`, or None where none is like it.
 
     Parameters
     ----------
@@ -37,12 +37,27 @@ def did_you_mean(
     """
     folded = word.casefold()[: 2 * MAX_SHOWN]
     right = (aliases or {}).get(folded)
-    if right is None:
-        by_folded = {name.casefold(): name for name in known}
-        compared = by_folded if len(by_folded) <= MAX_COMPARED else ()
-        close = get_close_matches(folded, compared, n=1, cutoff=likeness)
-        right = by_folded[close[0]] if close else None
+    if right is not None:
+        return right
+    by_folded = {name.casefold(): name for name in known}
+    compared = by_folded if len(by_folded) <= MAX_COMPARED else ()
+    close = get_close_matches(folded, compared, n=1, cutoff=likeness)
+    return by_folded[close[0]] if close else None
+
+
+def question(right: str | None) -> str:
+    """Return ``"; did you mean X?"``, or ``""`` where there is no right word."""
     return f"; did you mean {right}?" if right else ""
+
+
+def did_you_mean(
+    word: str,
+    known: Iterable[str],
+    aliases: Mapping[str, str] | None = None,
+    likeness: float = 0.6,
+) -> str:
+    """Return the `question` for the known word that is `nearest` to a word."""
+    return question(nearest(word, known, aliases, likeness))
 
 
 def did_you_mean_symbol(name: str, known: Iterable[str]) -> str:
