@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum, IntEnum
+from itertools import chain
 from types import MappingProxyType
 
 from sympy import Expr, Integer, Symbol
@@ -172,17 +173,21 @@ class Robot:
         """The other symbols, in the order in which the chain meets them, base to tool."""
         variables = set(self.variables)
         found: dict[Symbol, None] = {}
-        for expression in self._expressions():
-            for symbol in in_name_order(expression.free_symbols):
+        for amount in self.amounts:
+            for symbol in in_name_order(amount.free_symbols):
                 if symbol not in variables:
                     found[symbol] = None
         return tuple(found)
 
-    def _expressions(self) -> Iterable[Expr]:
-        yield from (motion.amount for motion in self.base)
-        for joint in self.joints:
-            yield from (joint.theta, joint.d, joint.a, joint.alpha)
-        yield from (motion.amount for motion in self.tool)
+    @property
+    def amounts(self) -> tuple[Expr, ...]:
+        """The angles and lengths of the chain, base to tool."""
+        rows = ((joint.theta, joint.d, joint.a, joint.alpha) for joint in self.joints)
+        return (
+            *(motion.amount for motion in self.base),
+            *chain.from_iterable(rows),
+            *(motion.amount for motion in self.tool),
+        )
 
 
 def in_name_order(symbols: Iterable[Symbol]) -> list[Symbol]:

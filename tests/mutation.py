@@ -53,6 +53,7 @@ FILES = (
     "motion",
     "tabular",
     "keys",
+    "amounts",
     "kinematics",
     "rotation",
     "urdf",

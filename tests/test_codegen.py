@@ -906,11 +906,14 @@ def test_literals_are_the_shortest_of_the_nearest_double(value: Expr, text: str)
 
 @pytest.mark.parametrize(
     ("length", "number", "found"),
-    [(sqrt(L1 - 1), Rational(1, 2), "sqrt(2)*I/2"), (1 / L1, Integer(0), "zoo")],
+    [
+        (sqrt(L1 - 1), Rational(1, 2), "equal to sqrt(2)*I/2, which is not a real number"),
+        (1 / L1, Integer(0), "infinite: a division by zero"),
+    ],
 )
 def test_values_that_make_no_real_length_are_named(length: Expr, number: Expr, found: str) -> None:
     arm = Robot("arm", STANDARD, (revolute(Q1, a=length),), values={L1: number})
-    says = f"these values make {length} equal to {found}, which is not a real number"
+    says = f"these values make {length} {found}"
     with pytest.raises(UnsupportedError, match=re.escape(says)):
         generate(arm, "c")
 

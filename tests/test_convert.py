@@ -10,7 +10,7 @@ import subprocess
 import sys
 import types
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,7 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracle import EXTENDED, FIFTY_DIGITS, METRES, Arm, elementary, read_arm, read_arm_file
+from sympy import Integer
 from urdf_fk import read_chain
 
 import symdh
@@ -569,12 +570,10 @@ def test_what_a_format_of_numbers_cannot_hold(form: str) -> None:
     )
     with pytest.raises(UnsupportedError, match="a1 has no value"):
         export(open_length, form)
-    imaginary = symdh.loads(
-        "convention: standard\njoints: [{theta: q1, d: 0, a: sqrt(a1), alpha: 0}]\n"
-        "values: {a1: -1}\n"
-    )
+    root = symdh.loads("convention: standard\njoints: [{theta: q1, d: 0, a: sqrt(a1), alpha: 0}]\n")
+    (a1,) = root.parameters
     with pytest.raises(UnsupportedError, match="not a real number"):
-        export(imaginary, form)
+        export(replace(root, values={a1: Integer(-1)}), form)
 
 
 def test_there_is_no_other_format() -> None:

@@ -8,6 +8,7 @@ import math
 import os
 import re
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -15,7 +16,7 @@ import numpy as np
 import pytest
 from conftest import SYMDH, Runner
 from oracle import read_arm_file
-from sympy import Float, Symbol, pi
+from sympy import Float, Integer, Symbol, pi
 
 import symdh
 from symdh.derivation.blocks import Figure
@@ -469,7 +470,8 @@ def test_no_drawing_is_no_error_in_a_document() -> None:
     with pytest.raises(LimitError, match="15 rows"):
         draw(long)
     assert not any(isinstance(b, Figure) for c in derive(long).chapters for b in c.blocks)
-    unreal = arm("  - {theta: q, d: sqrt(k), a: 0, alpha: 0}\n", "values: {k: -1}\n")
+    root = arm("  - {theta: q, d: sqrt(k), a: 0, alpha: 0}\n")
+    unreal = replace(root, values={root.parameters[0]: Integer(-1)})
     with pytest.raises(UnsupportedError, match="no real value"):
         draw(unreal)
     assert drawings(unreal) == ()

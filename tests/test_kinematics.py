@@ -346,15 +346,23 @@ def test_names_are_listed_by_number_not_by_letter() -> None:
         )
 
 
-@pytest.mark.parametrize(("length", "at_four", "bad"), [("1/k", 0.25, 0), ("sqrt(k)", 2.0, -1)])
-def test_values_that_make_no_real_length_are_refused(length: str, at_four: float, bad: int) -> None:
+@pytest.mark.parametrize(
+    ("length", "at_four", "bad", "says"),
+    [
+        ("1/k", 0.25, 0, "make 1/k infinite"),
+        ("sqrt(k)", 2.0, -1, "equal to I, which is not a real"),
+    ],
+)
+def test_values_that_make_no_real_length_are_refused(
+    length: str, at_four: float, bad: int, says: str
+) -> None:
     robot = symdh.loads(
         "name: arm\nconvention: standard\njoints:\n"
         f"  - {{theta: theta1, d: 0, a: {length}, alpha: 0}}\n"
     )
     (t1,), (k,) = robot.variables, robot.parameters
     assert pose(robot, 0, 1, {t1: Integer(0), k: Integer(4)})[0][3] == at_four
-    with pytest.raises(UnsupportedError, match="not a real number"):
+    with pytest.raises(UnsupportedError, match=says):
         pose(robot, 0, 1, {t1: Integer(0), k: Integer(bad)})
 
 

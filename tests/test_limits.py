@@ -6,7 +6,7 @@ import subprocess
 import sys
 import textwrap
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from itertools import islice
 from pathlib import Path
@@ -29,6 +29,7 @@ HEAD = "convention: standard\nunits: {angle: rad, length: m}\n"
 ROW = "{theta: theta1, d: 0, a: 0, alpha: 0}"
 ONE = f"joints: [{ROW}]\n"
 MEBIBYTE = 1 << 20
+LARGEST = "(2^32)^7*2^31"
 
 
 def table(text: str) -> object:
@@ -67,8 +68,13 @@ def rows(count: int, a: str = "0", alpha: str = "0") -> str:
 EXAMINED = symdh.loads(rows(14))
 
 
-def with_length(length: str) -> str:
-    return f"{HEAD}joints: [{{theta: theta1, d: 0, a: '{length}', alpha: 0}}]\n"
+def with_length(length: str, **values: str) -> str:
+    row = f"joints: [{{theta: theta1, d: 0, a: '{length}', alpha: 0}}]\n"
+    return HEAD + row + (with_values(values) if values else "")
+
+
+def with_values(values: Mapping[str, str]) -> str:
+    return "values:\n" + "".join(f"  {name}: {text}\n" for name, text in values.items())
 
 
 def chain(count: int) -> str:
@@ -110,6 +116,12 @@ LIMITS: dict[str, tuple[Reader, str, str, str]] = {
     "exponent": (parse_expression, "2^32", "2^33", "exponent is over the limit of 32"),
     "root": (parse_expression, "2^(1/8)", "2^(1/9)", "a root over 8"),
     "bits": (parse_expression, "(2^32)^7*2^31", "(2^32)^7*2^31*2", "over the limit of 256 bits"),
+    "powers of powers": (
+        parse_expression,
+        "(a^25*b^25)^5",
+        "(a^25*b^25)^5*a",
+        "without its powers, this has over 250 symbols",
+    ),
     "name of a symbol": (parse_expression, "q" * 40, "q" * 41, "41 characters, over 40"),
     "bytes": (
         table,
@@ -148,6 +160,18 @@ LIMITS: dict[str, tuple[Reader, str, str, str]] = {
         "title has 201 characters, over 200",
     ),
     "joints": (table, rows(200), rows(201), "201 rows, over 200"),
+    "bits of values": (
+        table,
+        with_length("a1^25*a2^25", a1=LARGEST, a2=f"1/({LARGEST})"),
+        with_length("a1^28*a2^28", a1=LARGEST, a2=f"1/({LARGEST})"),
+        "a number of over 14,000 bits",
+    ),
+    "size of values": (
+        table,
+        with_length("a1^2*10", a1="1e30*1e8"),
+        with_length("a1^2*11", a1="1e30*1e8"),
+        "equal to 1.10e.77, over the limit of 1e77",
+    ),
     "motions": (
         table,
         f"{HEAD}{ONE}base: [{'Tx(1), ' * 50}]",
@@ -233,6 +257,23 @@ def wide(cell: Callable[[int], str]) -> str:
 
 #: Inputs that were made to cost as much as the limits allow.
 COSTLY: dict[str, tuple[Reader, str]] = {
+    "powers of powers": (table, with_length(nested("({})^32", "a1"), a1="2")),
+    "powers of sums of powers": (table, with_length(nested("(1+{})^3", "a1"), a1="2")),
+    "values with many digits": (
+        table,
+        wide(lambda n: filled(lambda k: f"1/a{k}"))
+        + with_values({f"a{k}": f"1/({LARGEST} + {2 * k + 1})" for k in range(80)}),
+    ),
+    "cosines of values": (
+        table,
+        wide(lambda n: filled(lambda k: f"cos(b{k})", "*"))
+        + with_values({f"b{k}": f"pi/{k + 3}" for k in range(80)}),
+    ),
+    "roots of values": (
+        table,
+        wide(lambda n: filled(lambda k: f"sqrt(a{k})"))
+        + with_values({f"a{k}": f"{10**12 + 2 * k + 1}" for k in range(80)}),
+    ),
     "sums": (table, wide(lambda n: filled(lambda k: f"a{k}"))),
     "symbols": (table, wide(lambda n: filled(lambda k: f"a{n}_{k}"))),
     "quotients": (table, wide(lambda n: filled(lambda k: f"(a{k}+b)/(c+d{n})", "/"))),

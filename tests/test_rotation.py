@@ -755,9 +755,13 @@ def test_bad_input_is_told_and_writes_nothing(
 
 
 def test_a_matrix_that_is_not_real_is_refused(empty: Path, capsys: Capture) -> None:
-    Path("odd.yaml").write_text("matrix: [1, 0, 0, 0, 1, 0, 0, 0, sqrt(k)]\nvalues: {k: -1}\n")
-    assert run(["rotate", "odd.yaml"]) == 2
+    odd = Path("odd.yaml")
+    odd.write_text("matrix: [1, 0, 0, 0, 1, 0, 0, 0, sqrt(k)]\n")
+    assert run(["rotate", "odd.yaml", "--set", "k=-1"]) == 2
     assert "an entry of the matrix is 1.0*I, not a real number" in capsys.readouterr().err
+    odd.write_text(odd.read_text() + "values: {k: -1}\n")
+    assert run(["rotate", "odd.yaml"]) == 2
+    assert "odd.yaml:1:34: these values make sqrt(k) equal to I" in capsys.readouterr().err
 
 
 def test_a_bad_sheet_is_told_with_its_name(empty: Path, capsys: Capture) -> None:

@@ -20,10 +20,14 @@ def assignment(
     ------
     TableError
         When a name is not the robot's or a value is no number.
+    UnsupportedError
+        When the values make an amount of the robot infinite, complex or too large.
     """
-    from symdh.table import parse_setting
+    from symdh.table import check_settings, parse_setting
 
-    return dict(parse_setting(robot, as_utf8(text), option) for text in settings)
+    found = dict(parse_setting(robot, as_utf8(text), option) for text in settings)
+    check_settings(robot, found)
+    return found
 
 
 def point(robot: Robot, text: str | None) -> tuple[Expr, Expr, Expr] | None:

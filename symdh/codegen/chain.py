@@ -24,10 +24,10 @@ from symdh.codegen.vectors import (
     vector,
 )
 from symdh.kinematics.chain import chain_word
-from symdh.kinematics.numeric import not_real
 from symdh.motion import Run, Word, cut_runs, fuse_to_turn
 from symdh.motion.turn import Turn
 from symdh.robot import Axis, Motion, Robot
+from symdh.table import with_values
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,10 +104,7 @@ def lower_chain(
 
 
 def _with_values(motion: Motion, known: dict[Symbol, Expr]) -> Motion:
-    amount = motion.amount.xreplace(known)
-    if amount.is_real is False or amount.is_finite is False:
-        raise not_real(motion.amount, amount)
-    return replace(motion, amount=amount)
+    return replace(motion, amount=with_values(motion.amount, known))
 
 
 def _lower_run(lowering: Lowering, run: Run) -> LoweredRun:

@@ -11,6 +11,7 @@ from symdh.kinematics.chain import chain_word
 from symdh.kinematics.frame import Frame
 from symdh.motion import Word, elementary
 from symdh.robot import Motion, Robot, in_name_order
+from symdh.table import with_values
 
 NumericMatrix = tuple[tuple[float, ...], ...]
 
@@ -69,17 +70,8 @@ def check_values(word: Word, known: Mapping[Symbol, Expr]) -> None:
 
 
 def _numeric(motion: Motion, known: Mapping[Symbol, Expr]) -> ImmutableMatrix:
-    amount = motion.amount.xreplace(dict(known))
-    if not (amount.is_finite and amount.is_real):
-        raise not_real(motion.amount, amount)
+    amount = with_values(motion.amount, known)
     return elementary(Motion(motion.kind, motion.axis, amount)).evalf(_DIGITS)
-
-
-def not_real(amount: Expr, found: Expr) -> UnsupportedError:
-    """Return what to raise of an amount of the table that its values make infinite or complex."""
-    return UnsupportedError(
-        f"these values make {amount} equal to {found}, which is not a real number"
-    )
 
 
 def _rounded(entry: Expr, scale: Expr) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from symdh.table.amounts import check_settings, with_values
 from symdh.table.expression import parse_expression, parse_quantity
 from symdh.table.point import parse_point
 from symdh.table.reader import LoadedTable, read_table
@@ -15,6 +16,7 @@ __all__ = [
     "LENGTH",
     "Dimension",
     "LoadedTable",
+    "check_settings",
     "load_table",
     "loads_table",
     "parse_expression",
@@ -22,6 +24,7 @@ __all__ = [
     "parse_quantity",
     "parse_setting",
     "symbol_dimension",
+    "with_values",
 ]
 
 

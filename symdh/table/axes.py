@@ -33,6 +33,7 @@ from symdh.mechanism import (
     Vector,
 )
 from symdh.robot import JointType, Units
+from symdh.table.amounts import refuse_values
 from symdh.table.cells import Cell, CellReader, scalar
 from symdh.table.joint_type import TYPES
 from symdh.table.keys import Keys, read_keys
@@ -145,6 +146,7 @@ class _Reader:
         uses |= {variable: {kind} for variable, kind in kinds.items()}
         symbols = {symbol for cell in self.cells for symbol in cell.names} | set(kinds)
         values = read_values(sections.get("values"), symbols, uses, self.reader)
+        refuse_values(self.cells, values, report)
         limits = read_limits(sections.get("limits"), kinds, self.reader)
         self.reader.warn_of_bare_lengths()
         report.raise_errors()

@@ -16,6 +16,7 @@ from sympy import Rational, Symbol, pi
 from symdh.robot import Units
 from symdh.table import quantity as algebra
 from symdh.table.budget import OF_NUMBERS, Budget
+from symdh.table.extent import extent
 from symdh.table.functions import apply
 from symdh.table.lexer import MAX_EXPRESSION, ExpressionError, Token, TokenKind, tokenize
 from symdh.table.names import CONSTANT, FUNCTION_NAMES, canonical_name, why_reserved
@@ -126,6 +127,11 @@ class _Parser:
         value = self.expression(0)
         if self.peek().kind is not TokenKind.END:
             self.refuse(self.peek())
+        # Powers of powers stand for no more than an expression without powers can hold.
+        most = self.longest // 2
+        if extent(value.total, lambda leaf: int(leaf.is_Symbol)) > most:
+            message = f"written out without its powers, this has over {most} symbols"
+            raise ExpressionError(0, message)
         return ParsedExpression(value, self.names, tuple(self.remarks), self.has_length_unit)
 
     def expression(self, binding: int) -> Quantity:

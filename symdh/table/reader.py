@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from symdh.errors import Diagnostic
 from symdh.robot import LengthUnit, Robot, Units
+from symdh.table.amounts import refuse_values
 from symdh.table.cells import CellReader
 from symdh.table.form import form_of
 from symdh.table.headers import Columns, read_columns
@@ -91,6 +92,7 @@ def read_table(source: Source) -> LoadedTable:
     uses = dimensions_of_symbols((cell.value, cell.dimension) for cell in cells)
     symbols = {symbol for cell in cells for symbol in cell.names}
     values = read_values(sections.get("values"), symbols, uses, reader)
+    refuse_values(cells, values, report)
     variables = {row.variable: DIMENSIONS[row.home] for row in rows if row.variable and row.home}
     limits = read_limits(sections.get("limits"), variables, reader)
 

@@ -15,6 +15,7 @@ from sympy import Expr, Symbol
 
 from symdh.errors import Diagnostic
 from symdh.robot import Axis, Units
+from symdh.table.amounts import refuse_values
 from symdh.table.cells import Cell, CellReader, scalar
 from symdh.table.keys import read_keys
 from symdh.table.labels import read_title
@@ -114,6 +115,7 @@ def read_rotation_sheet(source: Source) -> RotationSheet:
     uses = dimensions_of_symbols((cell.value, cell.dimension) for cell in cells)
     symbols = {symbol for cell in cells for symbol in cell.names}
     values = read_values(sections.get("values"), symbols, uses, reader)
+    refuse_values(cells, values, report)
     reader.warn_of_bare_lengths()
     report.raise_errors()
     return RotationSheet(

@@ -9,8 +9,8 @@ from sympy import Expr, Float, Function, Pow, Symbol
 from symdh.errors import UnsupportedError
 from symdh.kinematics.chain import chain_word
 from symdh.kinematics.frame import first_frame, last_frame
-from symdh.kinematics.numeric import not_real
 from symdh.robot import Robot
+from symdh.table import with_values
 
 #: How often numbers are drawn until ``sqrt(L - 1)`` and its like are real, and after how many
 #: times from twice the range.
@@ -52,10 +52,8 @@ def drawn_lengths(
         unreal = [amount for amount in amounts if not _is_real(amount.xreplace(known))]
         if not unreal:
             return numbers
-    found = unreal[0].xreplace(values)
-    if found.free_symbols:
-        raise UnsupportedError(f"no numbers were found that make {unreal[0]} a real number")
-    raise not_real(unreal[0], found)
+    with_values(unreal[0], values)
+    raise UnsupportedError(f"no numbers were found that make {unreal[0]} a real number")
 
 
 def _is_real(amount: Expr) -> bool:

@@ -18,6 +18,7 @@ from symdh.robot import (
     MotionKind,
     Robot,
 )
+from symdh.table import with_values
 from symdh.table.units import convert_length
 
 _DIGITS = 40
@@ -57,10 +58,7 @@ class Numbers:
         return self._real(e) * self._metre
 
     def _real(self, e: Expr) -> Expr:
-        value = e.xreplace(self._values)
-        if value.free_symbols or not (value.is_real and value.is_finite):
-            raise UnsupportedError(f"{e} is {value} with these values: not a real number")
-        return value
+        return with_values(e, self._values)
 
     def amount(self, motion: Motion) -> Motion:
         """Return a motion with its number."""
