@@ -49,6 +49,7 @@ from symdh.kinematics.inverse.fallback import nominal
 from symdh.kinematics.inverse.goal import goal_of
 from symdh.kinematics.inverse.inverse import InverseKinematics, Method, inverse_kinematics
 from symdh.kinematics.inverse.pool import Combination
+from symdh.kinematics.inverse.posture import Part
 from symdh.kinematics.inverse.refine import refined
 from symdh.kinematics.inverse.ring import InverseRing
 from symdh.kinematics.inverse.roots import _roots, real_angles
@@ -1159,6 +1160,24 @@ def test_the_left_elbow_is_left(name: str) -> None:
     for taken, q in found:
         left = np.cross(origin(name, q, 2), origin(name, q, 1))[2] > 0
         assert ("elbow left" in branches.names(taken, q)) == left
+
+
+@pytest.mark.parametrize(
+    ("name", "line"),
+    [
+        ("planar_2r", "joint 1 to the point p"),
+        ("elbow_3r", "joint 2 to the point w"),
+        ("planar_3r", "joint 1 to the axis of joint 3"),
+        ("ur5", "joint 2 to the axis of joint 4"),
+        ("puma560", "joint 2 to the centre of the wrist"),
+    ],
+)
+def test_an_elbow_is_beside_the_line_to_what_the_forearm_carries(name: str, line: str) -> None:
+    form = derived(DATA / "tables" / f"{name}.yaml")[0].form
+    assert form is not None
+    features = (step.feature for step in branches_of(form).steps)
+    (elbow,) = (each for each in features if each is not None and each.part is Part.ELBOW)
+    assert f"the line from the axis of {line}" in elbow.meaning
 
 
 @pytest.mark.parametrize("name", ["stanford_textbook", "spherical_rrp", "cylindrical_rpp_wrist"])

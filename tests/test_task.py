@@ -543,10 +543,20 @@ def test_nothing_depends_on_the_hash_seed(run_symdh: Runner) -> None:
     assert len(texts) == 3
 
 
-def test_angles_in_numbers_lie_in_one_turn() -> None:
+@pytest.mark.parametrize(
+    ("third", "whole"),
+    [
+        ("2*pi/3 + 1", 3),
+        ("10*pi/27", -8 * math.pi / 9),
+        ("-10*pi/27", 8 * math.pi / 9),
+        ("pi", math.pi),
+        ("pi/4", 3 * math.pi / 4),
+    ],
+)
+def test_angles_in_numbers_lie_in_one_turn(third: str, whole: float) -> None:
     found = fitting("planar_3r")
     robot = robot_of("planar_3r")
-    values = dict.fromkeys(robot.variables, parse_expression("2*pi/3 + 1"))
+    values = dict.fromkeys(robot.variables, parse_expression(third))
     values |= {s: parse_expression("1") for s in robot.parameters if s not in robot.values}
     angle = task_numbers(found, values).vector[2]
-    assert math.isclose(angle, 3 - 2 * math.pi + 2 * math.pi, rel_tol=1e-12)
+    assert math.isclose(angle, whole, rel_tol=1e-12)

@@ -16,6 +16,9 @@ from test_codegen import FORMULAS, L1, OBLIQUE, PLANAR, Q1, SCARA, STANDARD, STI
 import symdh
 from symdh.codegen import generate, verification
 from symdh.codegen.exact import ExactChain
+from symdh.codegen.inverse.judging import judged
+from symdh.codegen.inverse.lowering import inverse_program
+from symdh.codegen.inverse.program import Program
 from symdh.codegen.targets import python
 from symdh.codegen.verification import CheckProgram, random_poses, verify
 from symdh.errors import LimitError, OutputError, UnsupportedError
@@ -200,3 +203,20 @@ def test_a_length_that_is_no_real_number_cannot_be_verified() -> None:
     assert ExactChain(arm, {L1: 4.0}).lengths == 2
     with pytest.raises(UnsupportedError, match="has no value to verify with"):
         ExactChain(arm, {L1: -4.0})
+
+
+def test_a_miss_is_a_part_of_the_reach() -> None:
+    """The same arm in metres and in millimetres; the position counts beside the orientation."""
+    metres = (ROOT / "tests" / "data" / "tables" / "puma560.yaml").read_text()
+    numbers = re.compile(r"(?<=: )0\.\d+")
+    millimetres = numbers.sub(lambda found: str(1000 * float(found[0])), metres)
+    right, off = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6], [0.1 + 1e-3, 0.2, 0.3, 0.4, 0.5, 0.6]
+    errors = []
+    for text in (metres, millimetres):
+        robot = symdh.loads(text)
+        plan = inverse_program(robot, None, ())
+        assert isinstance(plan, Program)
+        exact = ExactChain(robot, {})
+        errors.append(judged(plan, exact, [right], [off], is_single=False).error)
+    assert math.isclose(*errors, rel_tol=1e-9)
+    assert 1e-4 < errors[0] < 2e-3
