@@ -22,7 +22,8 @@ from symdh.codegen.inverse.program import Program
 from symdh.codegen.targets import python
 from symdh.codegen.verification import CheckProgram, random_poses, verify
 from symdh.errors import LimitError, OutputError, UnsupportedError
-from symdh.robot import Robot
+from symdh.motion import translation
+from symdh.robot import Axis, Robot
 from tools import require_language, require_tool
 
 ROOT = Path(__file__).parent.parent
@@ -220,3 +221,10 @@ def test_a_miss_is_a_part_of_the_reach() -> None:
         errors.append(judged(plan, exact, [right], [off], is_single=False).error)
     assert math.isclose(*errors, rel_tol=1e-9)
     assert 1e-4 < errors[0] < 2e-3
+
+
+def test_a_check_passes_what_the_pose_calls_beyond_the_jacobian() -> None:
+    """The root is in the base alone: the pose has it, no column of the Jacobian."""
+    require_language("rust")
+    robot = replace(ONE, base=(translation(Axis.Z, sqrt(L1)),))
+    assert verify(robot, "rust", generate(robot, "rust"), count=3).is_right
