@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Runner
-from sympy import Expr, Float, Integer, Rational, Symbol, cos, nan, pi, sqrt, zoo
+from sympy import Expr, Float, Integer, Rational, Symbol, atan, cos, nan, pi, sqrt, zoo
 
 from symdh.errors import TableError, UnsupportedError
 from symdh.table import loads_table, with_values
@@ -43,8 +43,10 @@ def test_numbers_are_put_in(amount: Expr, known: Mapping[Symbol, Expr], found: E
         (Q + 1 / A, {A: Integer(0)}, r"make q \+ 1/a infinite"),
         (sqrt(A), {A: Integer(-4)}, r"make sqrt\(a\) equal to 2\*I, which is not a real number"),
         (Q + sqrt(A), {A: Integer(-4)}, r"equal to q \+ 2\*I, which is not a real number"),
-        (A / B, {A: Integer(0), B: Integer(0)}, "equal to nan, which is not a real number"),
-        (A, {A: nan}, "equal to nan"),
+        (atan(A / B), {A: HALF, B: Integer(0)}, r"make atan\(a/b\) infinite: a division by zero"),
+        (atan(A / B), {B: Integer(0)}, r"make atan\(a/b\) infinite: a division by zero"),
+        (A / B, {A: Integer(0), B: Integer(0)}, "make a/b infinite: a division by zero"),
+        (A, {A: nan}, "make a infinite"),
         (A, {A: zoo}, "make a infinite"),
         (A**3, {A: -(Integer(10) ** 30)}, r"equal to -1.00e\+90, over the limit of 1e77"),
         (A**400, {A: Integer(2) ** 50}, r"make a\*\*400 a number of over 14,000 bits"),

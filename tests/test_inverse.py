@@ -867,6 +867,13 @@ def test_an_arm_that_is_not_real_is_refused(values: dict[Symbol, Expr], message:
         inverse_kinematics(replace(arm, values=values))
 
 
+def test_a_twist_that_the_values_leave_open_is_refused() -> None:
+    """The arctangent of what is divided by zero lies between two bounds, and has no value."""
+    arm = symdh.loads(ROOT.replace("alpha: 0", "alpha: atan(1/h)", 1))
+    with pytest.raises(UnsupportedError, match=r"these values make atan\(1/h\) infinite"):
+        inverse_kinematics(replace(arm, values={symbol("h"): Integer(0)}))
+
+
 def test_a_length_that_the_users_number_makes_complex_is_refused() -> None:
     found = inverse_kinematics(symdh.loads(ROOT))
     with pytest.raises(UnsupportedError, match="is not a real number"):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from sympy import Expr, I, ImmutableMatrix, Integer, Symbol, nan, zoo
+from sympy import Expr, I, ImmutableMatrix, Integer, Symbol
 
 from symdh.derivation.blocks import (
     Block,
@@ -36,6 +36,7 @@ from symdh.notation.nodes import (
 )
 from symdh.notation.numbers import figures
 from symdh.robot import Robot, in_name_order
+from symdh.table.quantity import NOT_FINITE
 
 _FUNCTION = {"c": "cos", "s": "sin"}
 
@@ -98,7 +99,7 @@ def _put_in(style: Style, forward: ForwardKinematics, position: ImmutableMatrix)
         if not exact.free_symbols & set(robot.values):
             continue
         known = exact.xreplace(lengths)
-        if known.has(I, nan, zoo):
+        if known.has(I, *NOT_FINITE):
             return []
         node = mapped(style.figures.write(known), _Angles(style).put_in)
         forms = (node,) if reached is None else (node, _measured(style, reached[row][3]))

@@ -10,6 +10,7 @@ from symdh.errors import UnsupportedError
 from symdh.robot import Robot
 from symdh.table.cells import Cell
 from symdh.table.extent import extent
+from symdh.table.quantity import NOT_FINITE
 from symdh.table.report import Report
 
 MAX_VALUE_BITS = 14_000
@@ -40,7 +41,7 @@ def with_values(amount: Expr, known: Mapping[Symbol, Expr]) -> Expr:
         )
     found = amount.xreplace(dict(known))
     is_whole = not found.free_symbols
-    if found.is_finite is False:
+    if found.is_finite is False or found.has(*NOT_FINITE):
         raise UnsupportedError(f"these values make {amount} infinite: a division by zero")
     if found.is_real is False or (is_whole and not found.is_real):
         raise UnsupportedError(

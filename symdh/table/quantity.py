@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from sympy import Expr, I, Integer, Rational, nan, oo, pi, zoo
+from sympy import AccumBounds, Expr, I, Integer, Rational, nan, oo, pi, zoo
 
 from symdh.robot import AngleUnit, LengthUnit, Units
 from symdh.table.lexer import ExpressionError
@@ -31,7 +31,8 @@ MAX_EXPONENT = 32
 MAX_ROOT = 8
 
 ZERO = Integer(0)
-_NOT_FINITE = (zoo, nan, oo, -oo)
+#: What a division by zero leaves in an expression; an arctangent makes bounds of it.
+NOT_FINITE = (zoo, nan, oo, -oo, AccumBounds)
 
 
 @dataclass(frozen=True, slots=True)
@@ -259,7 +260,7 @@ def _product(
 
 def checked(value: Expr, offset: int) -> Expr:
     """Return `value` if it is finite, real and of bearable size, else raise at `offset`."""
-    if value.has(*_NOT_FINITE):
+    if value.has(*NOT_FINITE):
         raise ExpressionError(offset, "value is not finite (a division by zero?)")
     if value.has(I) or value.is_real is False:
         raise ExpressionError(offset, "value is not real")

@@ -6,11 +6,12 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from statistics import median
 
-from sympy import Expr, Float, Symbol, nan, pi, zoo
+from sympy import Expr, Float, Symbol, pi
 
 from symdh.derivation.numbers import angles
 from symdh.errors import UnsupportedError
 from symdh.robot import JointType, MotionKind, Robot
+from symdh.table.quantity import NOT_FINITE
 
 #: A twist without a value, in radians: no right angle, which would say more than the table does.
 UNKNOWN_ANGLE = float(pi / 3)
@@ -91,7 +92,7 @@ def number(amount: Expr, known: Numbers) -> float:
         When the numbers make it infinite or complex.
     """
     value = amount.xreplace({symbol: Float(size) for symbol, size in known.items()}).evalf()
-    if value.has(nan, zoo) or not (value.is_real and value.is_finite):
+    if value.has(*NOT_FINITE) or not (value.is_real and value.is_finite):
         raise UnsupportedError(
             f"{amount} has no real value with these numbers, so there is nothing to draw"
         )

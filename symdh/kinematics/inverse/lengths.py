@@ -11,6 +11,7 @@ from symdh.kinematics.chain import chain_word
 from symdh.kinematics.frame import first_frame, last_frame
 from symdh.robot import Robot
 from symdh.table import with_values
+from symdh.table.quantity import NOT_FINITE
 
 #: How often numbers are drawn until ``sqrt(L - 1)`` and its like are real, and after how many
 #: times from twice the range.
@@ -58,4 +59,4 @@ def drawn_lengths(
 
 def _is_real(amount: Expr) -> bool:
     """Say whether an amount is real and finite; joint variables in it are."""
-    return amount.is_real is not False and amount.is_finite is not False
+    return amount.is_real is not False and not amount.has(*NOT_FINITE)
