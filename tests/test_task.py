@@ -17,6 +17,7 @@ from evaluate import MP, number, value_of
 from oracle import FIFTY_DIGITS, Arm, elementary, read_arm, read_arm_file
 
 from symdh.cli.main import run
+from symdh.derivation.task import task_document
 from symdh.errors import UnsupportedError
 from symdh.kinematics.rotation import Atan2, named_sequence
 from symdh.kinematics.task import (
@@ -29,6 +30,7 @@ from symdh.kinematics.task import (
     task_numbers,
     task_vector,
 )
+from symdh.render.terminal import render_chapters
 from symdh.robot import Robot
 from symdh.table import load_table, loads_table, parse_expression
 from tools import require_tool
@@ -237,6 +239,26 @@ def test_the_structure_chooses_the_components(
 ) -> None:
     assert task_vector(robot_of(name)).choice is choice
     assert components(robot_of(name)) == expected
+
+
+HEAD = "name: arm\nconvention: modified\nunits: {angle: deg, length: m}\njoints:\n"
+TURNING = {
+    "about a tilted axis": HEAD
+    + "  - {theta: q1, d: 0.1, a: a1, alpha: beta}\nbase: [Tz(h), Rx(beta)]\n",
+    "about four axes through one point": HEAD
+    + "  - {theta: q1, d: 0, a: 0, alpha: 0}\n  - {theta: q2, d: 0, a: 0, alpha: 90 deg}\n"
+    + "  - {theta: q3, d: 0, a: 0, alpha: -90 deg}\n  - {theta: q4, d: 0, a: 0, alpha: 90 deg}\n",
+}
+
+
+@pytest.mark.parametrize("text", TURNING.values(), ids=TURNING)
+def test_a_hand_that_only_turns_is_asked_for_its_orientation(text: str) -> None:
+    found = analytic_jacobian(task_vector(loads_table(text).robot))
+    assert found.vector.choice is Choice.TURNING
+    assert len(found.vector.angles) == len(found.vector.components) == 3
+    check_against_the_oracle(found, read_arm(text))
+    told = render_chapters(task_document(found).chapters, 100)
+    assert "No joint moves the origin of the hand: its orientation in Euler angles:" in told
 
 
 def test_the_scara_of_the_lecture() -> None:

@@ -123,6 +123,8 @@ def _reason(style: Style, vector: TaskVector) -> Text:
             return ("No joint turns the hand, so its position says all:",)
         case Choice.WRIST:
             return ("The axes of the three joints meet in one point: the arm is a wrist:",)
+        case Choice.TURNING:
+            return ("No joint moves the origin of the hand: its orientation in Euler angles:",)
         case Choice.POSITION:
             joints = counted(len(vector.robot.variables), "joint")
             return (f"With {joints} the position alone can be prescribed:",)

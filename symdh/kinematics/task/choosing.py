@@ -114,6 +114,8 @@ class _Choosing:
             return self._vector(self.moving, Choice.PARALLEL, left_out=self.heading)
         if joints <= 3 and self._meets_in_a_point() and len(turning) == 3:
             return self._vector(self._angles(self._wrist_sequence()), Choice.WRIST)
+        if not self.moving:
+            return self._vector(self._usual_angles(), Choice.TURNING)
         if joints <= 3:
             return self._vector(self.moving, Choice.POSITION)
         return self._vector([*self.moving, *self._usual_angles()], Choice.POSE)

@@ -24,6 +24,7 @@ class Choice(Enum):
     PARALLEL = "parallel"
     SLIDING = "sliding"
     WRIST = "wrist"
+    TURNING = "turning"
     POSITION = "position"
     POSE = "pose"
 
