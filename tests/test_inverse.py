@@ -48,7 +48,7 @@ from symdh.kinematics.inverse.evaluate import Evaluator
 from symdh.kinematics.inverse.fallback import nominal
 from symdh.kinematics.inverse.goal import goal_of
 from symdh.kinematics.inverse.inverse import InverseKinematics, Method, inverse_kinematics
-from symdh.kinematics.inverse.pool import Combination
+from symdh.kinematics.inverse.pool import Combination, Pool
 from symdh.kinematics.inverse.posture import Part
 from symdh.kinematics.inverse.refine import refined
 from symdh.kinematics.inverse.ring import InverseRing
@@ -1057,6 +1057,24 @@ def unknowns_in(ring: InverseRing, element: Any) -> set[int]:
     angles = 2 * len(ring.forms)
     found = [k for k in generators_in(element) if k < ring.unknown_gens]
     return {k // 2 if k < angles else k - angles + len(ring.forms) for k in found}
+
+
+def test_equations_are_cut_beside_joints_that_move() -> None:
+    """Rows 1 and 3 move: behind row 1 or at the base, and before row 3 or at the hand."""
+    found = inverse_kinematics(
+        symdh.loads("""
+name: fixed_between
+convention: standard
+units: {angle: deg, length: m}
+joints:
+  - {theta: theta1, d: 0, a: 0.3, alpha: 0}
+  - {type: fixed, theta: 30 deg, d: 0, a: 0.2, alpha: 0}
+  - {theta: theta3, d: 0, a: 0.4, alpha: 0}
+""")
+    )
+    assert found.form is not None
+    pool = Pool(found.form.ring, frozenset(found.form.ring.goal_names))
+    assert {(split.i, split.j) for split in pool.splits} == {(0, 2), (0, 3), (1, 2), (1, 3)}
 
 
 def test_no_equation_is_longer_than_it_needs_to_be() -> None:

@@ -233,6 +233,13 @@ def test_columns_may_differ_in_their_units() -> None:
 # Where a bad table is wrong
 
 
+def test_the_caret_stands_under_the_quote_that_is_not_closed() -> None:
+    with pytest.raises(TableError) as caught:
+        loads_table('theta,d,a_i,alpha_i\nq1,0,"0,0\n', "arm.csv")
+    _, row, caret = str(caught.value).splitlines()
+    assert row[caret.index("^")] == '"'
+
+
 @pytest.mark.parametrize(
     ("text", "errors"),
     [

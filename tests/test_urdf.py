@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import yaml
 from oracle import read_arm, read_arm_file
-from sympy import Rational, pi
+from sympy import Rational, pi, sqrt
 from urdf_fk import Chain, read_chain
 
 import symdh
@@ -278,6 +278,12 @@ def test_an_axis_with_few_digits_is_made_a_unit_vector(axis: str, length: str) -
     )
     robot = imported(text, Convention.STANDARD)
     assert max(differences(robot, read_chain(text, "base", "hand"))) < 1e-14
+
+
+def test_an_axis_between_the_coordinate_axes_is_exact() -> None:
+    chain = chain_of(TWO.replace(SECOND_AXIS, '0 0 0"/> <axis xyz="0.577350 -0.577350 0.57735"/>'))
+    third = sqrt(3) / 3
+    assert chain.joints[1].meant.axis == (third, -third, third)
 
 
 def test_an_axis_that_no_simple_fractions_fit_keeps_its_direction() -> None:
