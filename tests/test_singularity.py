@@ -297,6 +297,14 @@ def test_factors_come_back_from_half_angles(
     assert half_factors(lambda halves, c, s: halves.pieces(make(c, s))) == expected
 
 
+@pytest.mark.parametrize(("letters", "factors"), [(9, 2), (10, 1)])
+def test_a_polynomial_in_many_letters_stays_one_factor(letters: int, factors: int) -> None:
+    """(x_1 .. x_n + 1)(x_1 .. x_n + 2): 3^n monomials could be in it."""
+    halves = HalfAngles(TrigRing(load(table_named("pieper_generic"))))
+    product = halves.ring.mul(*halves.ring.gens[:letters])
+    assert len(list(halves._split((product + 1) * (product + 2)))) == factors
+
+
 def test_a_half_that_is_alone_comes_back_as_its_square() -> None:
     """c vanishes at +-90 deg and 1 - s at 90 deg, twice: together at t = 1, once.
 

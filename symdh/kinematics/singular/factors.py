@@ -13,6 +13,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial, reduce
+from math import prod
 from typing import Any
 
 from sympy import Dummy, Symbol
@@ -28,6 +29,9 @@ Powers = tuple[int, ...]
 #: factor. Past the second number it is not even read.
 MAX_TERMS = 600
 MAX_READ = 6000
+#: Monomials that a polynomial of these degrees could have, past which it stays one factor as well:
+#: with ten letters the search for factors takes minutes.
+MAX_MONOMIALS = 40_000
 
 
 @dataclass(frozen=True)
@@ -161,6 +165,9 @@ class HalfAngles:
                 return
         # Linear in something, and without a factor that is free of it: it cannot be a product.
         if linear:
+            yield _normal(polynomial)
+            return
+        if prod(_degree(polynomial, k) + 1 for k in used) > MAX_MONOMIALS:
             yield _normal(polynomial)
             return
         for factor, power in polynomial.factor_list()[1]:
