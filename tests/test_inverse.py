@@ -297,11 +297,24 @@ def test_base_and_tool_are_part_of_the_arm(name: str) -> None:
             assert answer.within_limits == (abs(answer.q[0]) <= math.pi / 2 + 1e-6)
 
 
+@pytest.mark.parametrize("turns", [-3, -1, 1, 3])
+def test_half_a_turn_is_positive(turns: int) -> None:
+    """Angles lie in (-180 deg, 180 deg]."""
+    solver = inverse_kinematics(symdh.load(DATA / "tables" / "planar_2r.yaml")).solver()
+    assert solver.judge.wrapped(0, turns * math.pi) == math.pi
+
+
 def test_a_limit_that_is_no_number_is_none() -> None:
     """A limit from Python may be a formula: of known lengths it holds, of others it is none."""
     robot = symdh.load(DATA / "tables" / "planar_2r.yaml")
-    for half, within in ((symbol("a1") / 5, [False, False]), (symbol("L"), [True, True])):
-        bound = replace(robot, limits={symbol("theta2"): Limits(-half, half)})
+    fifth, other, zero = symbol("a1") / 5, symbol("L"), Integer(0)
+    for lower, upper, within in (
+        (-fifth, fifth, [False, False]),
+        (-other, other, [True, True]),
+        (zero, other, [True, True]),
+        (other, zero, [True, True]),
+    ):
+        bound = replace(robot, limits={symbol("theta2"): Limits(lower, upper)})
         answers = inverse_kinematics(bound).solver().solve(at(0.6, 0.3))  # a_1 is 0.5
         assert all(abs(answer.q[1]) > 0.1 for answer in answers)
         assert [answer.within_limits for answer in answers] == within

@@ -408,6 +408,15 @@ def test_gear_offset_and_symbolic_twist() -> None:
     assert twisted.rank == 2
 
 
+def test_an_elbow_may_be_stretched_by_the_tool() -> None:
+    """The last frame lies on axis 2; only the tool is ahead of it."""
+    text = table_text("  - [theta1, 0, a1, 0]\n  - [theta2, 0, 0, 0]\n", "tool: [Tx(L)]\n")
+    (factor,) = singularities(symdh.loads(text)).factors or ()
+    assert factor.meaning is not None
+    assert factor.meaning.kind is Kind.ELBOW
+    assert (factor.meaning.joints, factor.meaning.point) == ((1, 2), "tool")
+
+
 def test_a_point_matters_where_positions_are_looked_at() -> None:
     robot = load(table_named("planar_2r"))
     tip = singularities(robot, at=(Rational(0), Rational(1), Rational(0)))
