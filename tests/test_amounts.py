@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Runner
-from sympy import Expr, Float, Integer, Rational, Symbol, atan, cos, nan, pi, sqrt, zoo
+from sympy import Expr, Float, Integer, Rational, Symbol, atan, cos, nan, pi, sin, sqrt, zoo
 
 from symdh.errors import TableError, UnsupportedError
 from symdh.table import loads_table, with_values
@@ -30,6 +30,7 @@ HALF = Rational(1, 2)
         (1 / A, {A: Float(4)}, Float(0.25)),
         (A**-32, {A: Integer(10)}, Rational(1, 10**32)),
         (cos(A) ** 2 - A, {A: Integer(0)}, Integer(1)),
+        (sqrt(cos(A) ** 2 + sin(A) ** 2 - 1), {A: HALF}, sqrt(cos(HALF) ** 2 + sin(HALF) ** 2 - 1)),
     ],
 )
 def test_numbers_are_put_in(amount: Expr, known: Mapping[Symbol, Expr], found: Expr) -> None:
@@ -48,6 +49,7 @@ def test_numbers_are_put_in(amount: Expr, known: Mapping[Symbol, Expr], found: E
         (A / B, {A: Integer(0), B: Integer(0)}, "make a/b infinite: a division by zero"),
         (A, {A: nan}, "make a infinite"),
         (A, {A: zoo}, "make a infinite"),
+        (1 / (cos(A) ** 2 + sin(A) ** 2 - 1), {A: HALF}, r"- 1\) infinite: a division by zero"),
         (A**3, {A: -(Integer(10) ** 30)}, r"equal to -1.00e\+90, over the limit of 1e77"),
         (A**400, {A: Integer(2) ** 50}, r"make a\*\*400 a number of over 14,000 bits"),
         (A - B, {A: Rational(1, 2**7500), B: Integer(2) ** 7500}, "over 14,000 bits"),

@@ -40,16 +40,17 @@ def with_values(amount: Expr, known: Mapping[Symbol, Expr]) -> Expr:
             f"these values make {amount} a number of over {MAX_VALUE_BITS:,} bits"
         )
     found = amount.xreplace(dict(known))
-    is_whole = not found.free_symbols
-    if found.is_finite is False or found.has(*NOT_FINITE):
+    # Of sqrt(sin(x)^2 + cos(x)^2 - 1) the digits alone tell that it is real.
+    number = found if found.free_symbols else found.evalf(15, chop=True)
+    if found.has(*NOT_FINITE) or number.has(*NOT_FINITE):
         raise UnsupportedError(f"these values make {amount} infinite: a division by zero")
-    if found.is_real is False or (is_whole and not found.is_real):
+    if number.is_real is False:
         raise UnsupportedError(
             f"these values make {amount} equal to {found}, which is not a real number"
         )
-    if is_whole and abs(found) > MAX_VALUE:
+    if number.is_number and abs(number) > MAX_VALUE:
         raise UnsupportedError(
-            f"these values make {amount} equal to {found.evalf(3)!s}, over the limit of 1e77"
+            f"these values make {amount} equal to {number.evalf(3)!s}, over the limit of 1e77"
         )
     return found
 
