@@ -19,7 +19,21 @@ import numpy as np
 import pytest
 from conftest import Runner
 from oracle import EXTENDED, elementary, read_arm_file
-from sympy import Expr, Integer, Matrix, Rational, Symbol, atan2, cos, pi, sin, sqrt, symbols
+from sympy import (
+    Add,
+    Expr,
+    Integer,
+    Matrix,
+    Rational,
+    Symbol,
+    atan2,
+    cos,
+    expand,
+    pi,
+    sin,
+    sqrt,
+    symbols,
+)
 
 from symdh.cli.main import run
 from symdh.derivation.frames import frames_document
@@ -32,7 +46,7 @@ from symdh.frames import (
     pose_of_matrix,
     read_frames,
 )
-from symdh.frames.exact import angle, tidy
+from symdh.frames.exact import angle, root, tidy
 from symdh.frames.geometry import Relation
 from symdh.mechanism import JointAxis, Mechanism, ToolFrame, Vector
 from symdh.render.table_yaml import table_yaml
@@ -924,3 +938,28 @@ def test_frames_as_a_web_page(run_symdh: Runner) -> None:
     page = run_symdh("frames", axes, "--format", "html").stdout
     assert page.startswith("<!DOCTYPE html>")
     assert page.count('class="symdh-arm"') == 1
+
+
+# What is too long to be multiplied out
+
+
+def test_a_square_of_many_terms_stays_under_its_root() -> None:
+    """Of (a_1 + .. + a_n)^2 the root is the sum; with 12 terms it is not looked for."""
+    few, many = (Add(*(Symbol(f"a{k}", real=True) for k in range(n))) for n in (3, 12))
+    assert root(expand(few**2)) == few
+    assert root(expand(many**2)) == sqrt(expand(many**2))
+
+
+def test_frames_that_are_too_long_are_refused() -> None:
+    """Axes that are tilted by one angle and turned to another each; no table could hold them."""
+    text = """
+name: arm
+joints:
+  - {point: [1/3, 1/3, b], direction: [0, sin(beta), cos(beta)], home: 30 deg}
+  - {point: [1/3, 0, 0.25], direction: [0, sin(beta), cos(beta)], type: prismatic, home: 0.2}
+  - {point: [0, b, b], direction: [0, 0, -1]}
+  - {point: [-a, sqrt(2)*b, b], direction: [0, sin(beta), cos(beta)]}
+tool: {point: [0, 1e-6, sqrt(2)*b]}
+"""
+    with pytest.raises(LimitError, match="over the limit of 1,000 numbers, symbols and operations"):
+        assign_frames(read_mechanism(from_text(text, "axes.yaml")).mechanism, Convention.STANDARD)

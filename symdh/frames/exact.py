@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 from functools import lru_cache
+from itertools import islice
 
 from sympy import (
     Add,
@@ -28,10 +29,12 @@ from sympy import (
     expand,
     factor,
     pi,
+    preorder_traversal,
     sin,
     sqrt,
 )
 
+from symdh.errors import LimitError
 from symdh.robot import in_name_order
 
 DIGITS = 50
@@ -42,13 +45,30 @@ _NOTHING = Float(10, _WORKING) ** -DIGITS
 _LARGEST_DENOMINATOR = 10**9
 _FINEST_DEGREE = 720
 
+#: Parts of an expression past which it is not multiplied out: no table could hold what follows,
+#: and the next expressions would have a hundred times as many.
+MAX_PARTS = 1_000
+#: Under a root with more parts no square is looked for: factors can take minutes to find.
+MAX_FACTORED = 150
+
 _ZERO, _ONE = Integer(0), Integer(1)
 
 
 def tidy(e: Expr) -> Expr:
-    """Return a short form of an exact expression: multiplied out, sin² + cos² = 1 used up."""
+    """Return a short form of an exact expression: multiplied out, sin² + cos² = 1 used up.
+
+    Raises
+    ------
+    LimitError
+        When it has more than `MAX_PARTS` parts.
+    """
     if e.is_Rational:
         return e
+    if _is_over(MAX_PARTS, e):
+        raise LimitError(
+            f"the exact frames are over the limit of {MAX_PARTS:,} numbers, symbols and operations "
+            "in one coordinate; give directions that make rounder numbers, or rounded ones"
+        )
     if not e.free_symbols:
         return _tidy_number(e)
     e = expand(e)
@@ -60,6 +80,11 @@ def tidy(e: Expr) -> Expr:
         constant, rest = term.as_independent(*term.free_symbols, as_Add=False)
         found[rest] = found.get(rest, _ZERO) + constant
     return Add(*(tidy(constant) * rest for rest, constant in found.items()))
+
+
+def _is_over(limit: int, e: Expr) -> bool:
+    """Say whether an expression has more than so many numbers, symbols and operations."""
+    return next(islice(preorder_traversal(e), limit, None), None) is not None
 
 
 def _cancelled(e: Expr) -> Expr:
@@ -232,7 +257,8 @@ def _by_sine(power: Expr) -> Expr:
 def _root_of_positive(e: Expr) -> Expr:
     """Return the root of an expression whose symbols, sines and cosines count as positive."""
     hidden = {atom: Dummy(positive=True) for atom in _atoms(e)}
-    found = sqrt(factor(e.xreplace(hidden)))
+    plain = e.xreplace(hidden)
+    found = sqrt(plain if _is_over(MAX_FACTORED, e) else factor(plain))
     found = found.xreplace({dummy: atom for atom, dummy in hidden.items()})
     return found if is_positive(found) else -found
 
