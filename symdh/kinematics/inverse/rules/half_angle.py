@@ -39,11 +39,15 @@ def eliminate(state: State) -> tuple[Step, ...]:
     added = False
     for x, y, (first, view_1), (second, view_2) in _pairs(state):
         parents = view_1.equation, view_2.equation
-        for element in _differences(state, first, second):
-            if _degree(state, y, (element,), ()) == 1 and len(element) <= _LONGEST:
-                source = replace(parents[0].source, entries=(), inverted=False)
-                made = Combination.DIFFERENCE
-                added |= state.pool.add(element, source, (), parents, made) is not None
+        element = _difference(state, first, second)
+        if (
+            element is not None
+            and _degree(state, y, (element,), ()) == 1
+            and len(element) <= _LONGEST
+        ):
+            source = replace(parents[0].source, entries=(), inverted=False)
+            made = Combination.DIFFERENCE
+            added |= state.pool.add(element, source, (), parents, made) is not None
         if state.vanishes(state.ring.reduced(first[0] * second[1] - second[0] * first[1])):
             continue
         scales = _scales(y, first, second)
@@ -115,17 +119,12 @@ def _pairs(
                 yield x, y, first, second
 
 
-def _differences(state: State, first: Linear, second: Linear) -> Iterator[Element]:
+def _difference(state: State, first: Linear, second: Linear) -> Element | None:
     """Subtract two equations in which x stands in the same way: x drops out."""
-    ring = state.ring
     (a_1, b_1, c_1), (a_2, b_2, c_2) = first, second
-    if (a_1 or a_2) and (b_1 or b_2):
-        if not ring.reduced(a_1 * b_2 - a_2 * b_1):
-            yield ring.reduced(a_1 * c_2 - a_2 * c_1 if a_1 and a_2 else b_1 * c_2 - b_2 * c_1)
-        return
-    # Both hold x, so that the one coefficient that there is stands in both.
-    p, q = (a_1, a_2) if a_1 else (b_1, b_2)
-    yield ring.reduced(p * c_2 - q * c_1)
+    if state.ring.reduced(a_1 * b_2 - a_2 * b_1):
+        return None
+    return state.ring.reduced(a_1 * c_2 - a_2 * c_1 if a_1 and a_2 else b_1 * c_2 - b_2 * c_1)
 
 
 def _scales(y: int, first: Linear, second: Linear) -> tuple[Element, ...]:
