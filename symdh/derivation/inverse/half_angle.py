@@ -71,7 +71,7 @@ def _eliminated(telling: Telling, x: int) -> list[Block]:
         right = write(p**2 + q**2)
         why = (
             *("The left sides are ", write(l_1), " and ", write(l_2)),
-            *(" times the components of one vector along perpendicular directions. "),
+            " times the components of one vector along perpendicular directions. ",
             "Divided by these, squared and added, they give the square of its length, and ",
             writer.unknown(x),
             " drops out:",
