@@ -1073,7 +1073,7 @@ def unknowns_in(ring: InverseRing, element: Any) -> set[int]:
 
 
 def test_equations_are_cut_beside_joints_that_move() -> None:
-    """Rows 1 and 3 move: behind row 1 or at the base, and before row 3 or at the hand."""
+    """Rows 1, 2 and 4 move: at the base or behind 1 or 2, and before 2 or 4 or at the hand."""
     found = inverse_kinematics(
         symdh.loads("""
 name: fixed_between
@@ -1081,13 +1081,15 @@ convention: standard
 units: {angle: deg, length: m}
 joints:
   - {theta: theta1, d: 0, a: 0.3, alpha: 0}
+  - {theta: theta2, d: 0, a: 0.4, alpha: 0}
   - {type: fixed, theta: 30 deg, d: 0, a: 0.2, alpha: 0}
-  - {theta: theta3, d: 0, a: 0.4, alpha: 0}
+  - {theta: theta4, d: 0, a: 0.2, alpha: 0}
 """)
     )
     assert found.form is not None
     pool = Pool(found.form.ring, frozenset(found.form.ring.goal_names))
-    assert {(split.i, split.j) for split in pool.splits} == {(0, 2), (0, 3), (1, 2), (1, 3)}
+    cuts = {(split.i, split.j) for split in pool.splits}
+    assert cuts == {(0, 1), (0, 3), (0, 4), (1, 3), (1, 4), (2, 3), (2, 4)}
 
 
 def test_no_equation_is_longer_than_it_needs_to_be() -> None:

@@ -281,9 +281,9 @@ def test_an_axis_with_few_digits_is_made_a_unit_vector(axis: str, length: str) -
 
 
 def test_an_axis_between_the_coordinate_axes_is_exact() -> None:
-    chain = chain_of(TWO.replace(SECOND_AXIS, '0 0 0"/> <axis xyz="0.577350 -0.577350 0.57735"/>'))
-    third = sqrt(3) / 3
-    assert chain.joints[1].meant.axis == (third, -third, third)
+    """Its squares are 1/3 and 2/3."""
+    chain = chain_of(TWO.replace(SECOND_AXIS, '0 0 0"/> <axis xyz="0.57735 0 -0.81650"/>'))
+    assert chain.joints[1].meant.axis == (sqrt(3) / 3, 0, -sqrt(6) / 3)
 
 
 def test_an_axis_that_no_simple_fractions_fit_keeps_its_direction() -> None:
