@@ -23,6 +23,7 @@ from symdh.kinematics.answers import JudgedClaim, JudgedSheet, circle, judge
 from symdh.kinematics.answers.circle import UndecidedError, _known_values, equal_in_ring
 from symdh.kinematics.answers.equality import Sameness, compare
 from symdh.kinematics.answers.figures import Written
+from symdh.kinematics.answers.numbers import value
 from symdh.notation.short_names import ShortNames
 from symdh.robot import Robot
 from symdh.table import load_table, loads_table
@@ -483,8 +484,8 @@ def test_a_root_of_a_quotient_is_one_letter_without_a_relation() -> None:
 def test_sines_of_parts_of_pi_that_are_known_have_no_quotient(parts: int) -> None:
     """The ring takes their numerators: no bottom is lost, and their squares add up to 1."""
     values = _known_values(sp.pi, sp.Rational(1, parts))
-    for value in values or ():
-        assert sp.fraction(sp.together(value))[1].is_Integer
+    for part in values or ():
+        assert sp.fraction(sp.together(part))[1].is_Integer
     angle = sp.pi / parts
     assert equal_in_ring(sp.cos(angle + X), sp.cos(angle) * sp.cos(X) - sp.sin(angle) * sp.sin(X))
 
@@ -511,6 +512,14 @@ def test_the_ring_gives_up_in_time() -> None:
     letters = sp.symbols("a:h", real=True)
     with pytest.raises(UndecidedError):
         equal_in_ring(sum(letters) ** 32, (letters[0] + sum(letters[1:])) ** 32 + X)
+
+
+@pytest.mark.parametrize(
+    "expression", [sp.acos(4 * X), 1 / (X - sp.Rational(1, 2)), sp.sqrt(X - 1), Y**Y]
+)
+def test_what_has_no_real_value_is_not_a_number(expression: sp.Expr) -> None:
+    """Out of the domain, a division by zero, complex, too large."""
+    assert math.isnan(value(expression, {X: 0.5, Y: 1e3}))
 
 
 def test_what_the_ring_cannot_prove_is_decided_by_number() -> None:
