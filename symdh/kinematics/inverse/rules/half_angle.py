@@ -39,16 +39,14 @@ def eliminate(state: State) -> tuple[Step, ...]:
     added = False
     for x, y, (first, view_1), (second, view_2) in _pairs(state):
         parents = view_1.equation, view_2.equation
-        element = _difference(state, first, second)
-        if (
-            element is not None
-            and _degree(state, y, (element,), ()) == 1
-            and len(element) <= _LONGEST
-        ):
-            source = replace(parents[0].source, entries=(), inverted=False)
-            made = Combination.DIFFERENCE
-            added |= state.pool.add(element, source, (), parents, made) is not None
-        if state.vanishes(state.ring.reduced(first[0] * second[1] - second[0] * first[1])):
+        determinant = state.ring.reduced(first[0] * second[1] - second[0] * first[1])
+        if not determinant:
+            element = _difference(state, first, second)
+            if _degree(state, y, (element,), ()) == 1 and len(element) <= _LONGEST:
+                source = replace(parents[0].source, entries=(), inverted=False)
+                made = Combination.DIFFERENCE
+                added |= state.pool.add(element, source, (), parents, made) is not None
+        if state.vanishes(determinant):
             continue
         scales = _scales(y, first, second)
         degree = _degree(state, y, (*first, *second), scales)
@@ -119,11 +117,9 @@ def _pairs(
                 yield x, y, first, second
 
 
-def _difference(state: State, first: Linear, second: Linear) -> Element | None:
+def _difference(state: State, first: Linear, second: Linear) -> Element:
     """Subtract two equations in which x stands in the same way: x drops out."""
     (a_1, b_1, c_1), (a_2, b_2, c_2) = first, second
-    if state.ring.reduced(a_1 * b_2 - a_2 * b_1):
-        return None
     return state.ring.reduced(a_1 * c_2 - a_2 * c_1 if a_1 and a_2 else b_1 * c_2 - b_2 * c_1)
 
 
