@@ -833,6 +833,50 @@ def test_numbers_that_are_no_goal_are_refused(
         goal_of(derived(table)[0].task, numbers)
 
 
+@pytest.mark.parametrize(
+    "name", ["planar_2r", "pieper_generic", "three_parallel_only", "yaskawa_hc10"]
+)
+def test_the_farthest_goal_is_out_of_reach_and_farther_ones_are_refused(name: str) -> None:
+    solver = derived(DATA / "tables" / f"{name}.yaml")[0].solver()
+    assert solver.solve([[1, 0, 0, 1e30], [0, 1, 0, -1e30], [0, 0, 1, 1e30]]) == []
+    for length in (1.001e30, -1e300, math.inf, math.nan):
+        with pytest.raises(UnsupportedError, match=r"a position up to the limit of 1e\+30, not"):
+            solver.solve([[1, 0, 0, 0], [0, 1, 0, length], [0, 0, 1, 0]])
+
+
+@pytest.mark.parametrize("name", ["planar_2r", "puma560", "pieper_generic"])
+@pytest.mark.parametrize("scale", [Rational(1, 10**9), Integer(10) ** 6])
+def test_an_arm_of_any_size_has_the_same_answers(name: str, scale: Expr) -> None:
+    robot = symdh.load(DATA / "tables" / f"{name}.yaml")
+    lengths = {s: v * scale for s, v in robot.values.items() if s in robot.parameters}
+    assert len(lengths) >= 2
+    found = [inverse_kinematics(each) for each in (robot, replace(robot, values=lengths))]
+    assert found[0].task == found[1].task
+    assert found[0].structure == found[1].structure
+    q = [0.3, 0.7, -0.4, 0.5, 0.9, -0.8][: len(robot.variables)]
+    plain, scaled = (
+        [answer.q for answer in solver.solve(solver.judge.chain.pose(q))]
+        for solver in (each.solver() for each in found)
+    )
+    assert len(plain) == len(scaled) > 1
+    np.testing.assert_allclose(plain, scaled, atol=1e-9)
+
+
+def test_lengths_over_the_limit_are_refused() -> None:
+    lengths = Symbol("a1", real=True), Symbol("a2", real=True)
+    found = derived(DATA / "tables" / "planar_2r.yaml")[0]
+    longest = dict.fromkeys(lengths, Integer(10) ** 30 / 2)
+    assert len(found.solver(longest).solve([[1, 0, 0, 6e29], [0, 1, 0, 0], [0, 0, 1, 0]])) == 2
+    longer = dict.fromkeys(lengths, Integer(10) ** 30)
+    with pytest.raises(UnsupportedError, match=r"lengths and locked joints up to .* not 2e\+30"):
+        found.solver(longer)
+    slide = Symbol("d3", real=True)
+    held = inverse_kinematics(symdh.load(DATA / "tables" / "spherical_rrp.yaml"), "x y", [slide])
+    held.solver({slide: -(Integer(10) ** 30)})
+    with pytest.raises(UnsupportedError, match=r"lengths and locked joints up to .* not -1e\+31"):
+        held.solver({slide: -(Integer(10) ** 31)})
+
+
 def test_an_angle_is_about_the_axis_of_a_plane_x_y() -> None:
     text = PLANE.read_text() + "base: [Rx(90 deg)]\n"
     found = inverse_kinematics(symdh.loads(text), "x z phi")

@@ -104,7 +104,7 @@ class OneJointSearch:
         self, goal: Sequence[Sequence[float]], seed: Sequence[float] | None = None
     ) -> list[Answer]:
         """Return the solutions found: where the error along a branch turns, Newton goes on."""
-        pose: Goal = tuple(tuple(map(float, row)) for row in goal[:3])
+        pose = self.judge.goal(goal)
         start = list(seed) if seed is not None else [0.0] * len(self.judge.turning)
         curves = [self._at(-pi + 2 * pi * k / _GRID, pose, start) for k in range(_GRID)]
         found: list[Answer] = []
@@ -170,7 +170,7 @@ class LeastSquares:
         self, goal: Sequence[Sequence[float]], seed: Sequence[float] | None = None
     ) -> list[Answer]:
         """Return the solutions found."""
-        pose: Goal = tuple(tuple(map(float, row)) for row in goal[:3])
+        pose = self.judge.goal(goal)
         drawn = random.Random(29)
         found: list[Answer] = []
         for k in range(_STARTS):

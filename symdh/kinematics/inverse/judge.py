@@ -5,10 +5,11 @@ from __future__ import annotations
 import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import inf, pi, sqrt
+from math import hypot, inf, pi
 
 from sympy import Expr, Symbol
 
+from symdh.errors import UnsupportedError
 from symdh.kinematics.inverse.numeric_chain import NumericChain
 from symdh.kinematics.inverse.refine import Goal, refined, task_error
 from symdh.kinematics.inverse.task import InverseTask
@@ -20,6 +21,8 @@ TOLERANCE = 1e-9
 _ROUNDING = 1e-13
 #: Two answers closer than this, in radians and parts of the reach, are one.
 _SAME = 1e-6
+MAX_LENGTH = 1e30
+"""The longest reach and the farthest goal; their powers, up to the eighth, fit into a double."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +65,7 @@ class Judge:
     Raises
     ------
     UnsupportedError
-        When a parameter has no value.
+        When a parameter has no value, or the arm is longer than `MAX_LENGTH`.
     """
 
     def __init__(
@@ -76,10 +79,25 @@ class Judge:
         self.task = task
         numbers = {s.name: float(v) for s, v in values.items() if s in robot.parameters}
         self.chain = NumericChain.of(robot, numbers)
+        for length in (self.chain.reach, *held.values()):
+            _refuse_over_limit("lengths and locked joints", length)
         self.held = {robot.variables.index(variable): x for variable, x in held.items()}
         self.turning = [_turns(robot, variable) for variable in robot.variables]
         self.free_places = [k for k in range(len(robot.variables)) if k not in self.held]
         self._limits = _limits(robot, {**robot.values, **values})
+
+    def goal(self, rows: Sequence[Sequence[float]]) -> Goal:
+        """Return the goal that the first three rows of a pose are.
+
+        Raises
+        ------
+        UnsupportedError
+            When it is farther away than `MAX_LENGTH`.
+        """
+        pose = tuple(tuple(map(float, row)) for row in rows[:3])
+        for row in pose:
+            _refuse_over_limit("a position", row[3])
+        return pose
 
     def error(self, goal: Goal, q: Sequence[float]) -> float:
         """Return by how much joint values miss a goal, as a length."""
@@ -142,12 +160,14 @@ class Judge:
 
     def distance(self, a: Sequence[float], b: Sequence[float], without: int | None = None) -> float:
         """Return how far apart joint values are, slides as parts of the reach."""
-        total = 0.0
-        for place, (x, y) in enumerate(zip(a, b, strict=True)):
-            if place != without:
-                apart = self.wrapped(place, x - y)
-                total += (apart if self.turning[place] else apart / self.chain.reach) ** 2
-        return sqrt(total)
+        apart = (self.wrapped(place, x - y) for place, (x, y) in enumerate(zip(a, b, strict=True)))
+        return hypot(
+            *(
+                each if self.turning[place] else each / self.chain.reach
+                for place, each in enumerate(apart)
+                if place != without
+            )
+        )
 
     def _is_within(self, q: Sequence[float]) -> bool:
         return all(
@@ -173,3 +193,10 @@ def _limits(robot: Robot, known: Mapping[Symbol, Expr]) -> list[tuple[float, flo
                 ends = float(lower), float(upper)
         limits.append(ends)
     return limits
+
+
+def _refuse_over_limit(what: str, length: float) -> None:
+    if not abs(length) <= MAX_LENGTH:
+        raise UnsupportedError(
+            f"inverse kinematics takes {what} up to the limit of {MAX_LENGTH:g}, not {length:.3g}"
+        )

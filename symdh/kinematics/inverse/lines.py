@@ -121,8 +121,8 @@ def meet(a: Line, b: Line) -> bool:
     """Say whether two axes that are not parallel intersect."""
     normal = cross(a.direction, b.direction)
     between = span(a.point, b.point)
-    scale = 1 + length(between)
-    return not are_parallel(a, b) and abs(dot(normal, between)) < 1e-9 * scale
+    scale = length(a.point) + length(b.point)
+    return not are_parallel(a, b) and abs(dot(normal, between)) <= 1e-9 * scale
 
 
 def meet_in_one_point(a: Line, b: Line, c: Line) -> bool:
@@ -130,7 +130,8 @@ def meet_in_one_point(a: Line, b: Line, c: Line) -> bool:
     if not (meet(a, b) and meet(b, c)):
         return False
     p, q = crossing(a, b), crossing(b, c)
-    return length(span(p, q)) < 1e-9 * (1 + length(p))
+    scale = length(p) + sum(length(line.point) for line in (a, b, c))
+    return length(span(p, q)) <= 1e-9 * scale
 
 
 def crossing(a: Line, b: Line) -> Vector:

@@ -77,7 +77,7 @@ class Solver:
         list of Answer
             Empty when the goal is out of reach.
         """
-        pose: Goal = tuple(tuple(map(float, row)) for row in goal[:3])
+        pose = self.judge.goal(goal)
         start = list(seed) if seed is not None else [0.0] * len(self.judge.turning)
         answers: list[Answer] = []
         for proposal in self._evaluator.proposals(pose, start):

@@ -146,11 +146,12 @@ def _named(text: str, freedoms: int) -> InverseTask:
 
 def moved_coordinates(robot: Robot) -> tuple[int, ...]:
     """Return which coordinates of the hand change when the joints move."""
-    poses = [NumericChain.of(robot, _random_lengths(robot)).pose(q) for q in _samples(robot)]
+    chain = NumericChain.of(robot, _random_lengths(robot))
+    poses = [chain.pose(q) for q in _samples(robot)]
     moved = []
     for axis in range(3):
         column = [pose[axis][3] for pose in poses]
-        if max(column) - min(column) > _SMALL * (1 + max(abs(x) for x in column)):
+        if max(column) - min(column) > _SMALL * chain.reach:
             moved.append(axis)
     return tuple(moved)
 
