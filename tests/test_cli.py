@@ -301,6 +301,26 @@ def test_every_option_of_a_document_reaches_it(arm: Path, capsys: Capture) -> No
     assert latex("--order", "right", "--notation", "auto", "--paper", "a4") == plain
 
 
+@pytest.mark.parametrize(
+    "command",
+    [
+        "draw arm.yaml --azimuth",
+        "draw arm.yaml --elevation",
+        "ik arm.yaml --time-limit",
+        "pdf arm.yaml --time-limit",
+        "convert arm.yaml --to modified --tolerance",
+        "rotate Rz(1) --tolerance",
+    ],
+)
+@pytest.mark.usefixtures("arm")
+def test_what_is_no_number_is_in_no_range(command: str, capsys: Capture) -> None:
+    assert run([*command.split(), "nan"]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert "'nan' is not a number." in printed.err
+    assert names() == {"arm.yaml"}
+
+
 # -- show and eval ---------------------------------------------------------------------------------
 
 

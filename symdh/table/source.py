@@ -164,6 +164,8 @@ def _read_stdin() -> bytes:
 
 
 def _read_file(path: str) -> bytes:
+    if not path:  # Path("") is the folder that symdh runs in
+        raise ReadError("the name of a file to read is empty")
     try:
         # The kind is asked before opening: opening a named pipe waits for a writer.
         _refuse_kind(path, Path(path).stat().st_mode)

@@ -46,7 +46,7 @@ _LONG = 15
 )
 @click.option(
     "--tolerance",
-    type=click.FloatRange(min=0, max=0.1),
+    type=options.NumberRange(min=0, max=0.1),
     default=1e-5,
     show_default=True,
     metavar="NUMBER",

@@ -32,14 +32,14 @@ _NAMES = {"svg": ".svg", "tex": "_drawing.tex"}
 @options.set_option("Value of a symbol to draw with, with or without its unit.")
 @click.option(
     "--azimuth",
-    type=click.FloatRange(-360, 360),
+    type=options.NumberRange(-360, 360),
     metavar="DEGREES",
     help="Where to look from, about z from the x axis. Default: a planar arm is drawn in its "
     "plane, any other from -60.",
 )
 @click.option(
     "--elevation",
-    type=click.FloatRange(-90, 90),
+    type=options.NumberRange(-90, 90),
     metavar="DEGREES",
     help="How far above the xy plane to look from. Default: 27.",
 )

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--tolerance",
-    type=click.FloatRange(min=0, max=0.1, min_open=True),
+    type=options.NumberRange(min=0, max=0.1, min_open=True),
     default=1e-6,
     show_default=True,
     metavar="NUMBER",
