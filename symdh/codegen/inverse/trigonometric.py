@@ -39,8 +39,8 @@ class Trigonometry:
         graph = self._graph
         half, zero = graph.constant(_HALF), graph.zero
         # c = (z + 1/z) / 2, s = (z - 1/z) / (2 i); only the powers from 0 up are kept.
-        cosine: Trigonometric = {0: (zero, zero), 1: (half, zero)}
-        sine: Trigonometric = {0: (zero, zero), 1: (zero, graph.neg(half))}
+        cosine: Trigonometric = {1: (half, zero)}
+        sine: Trigonometric = {1: (zero, graph.neg(half))}
         total: Trigonometric = {}
         c, s = 2 * angle, 2 * angle + 1
         for powers, coefficient in element.terms():
