@@ -21,7 +21,6 @@ import hashlib
 import json
 import math
 import os
-import random
 import resource
 import shutil
 import sqlite3
@@ -30,9 +29,11 @@ import sys
 import tempfile
 import xml.etree.ElementTree as ET
 from collections import Counter, defaultdict
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import cache
+from itertools import islice
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -235,28 +236,46 @@ def measure(name: str) -> None:
     mark.write_text(digest(name))
 
 
-def draw(count: int, seed: int, layers: list[str], part: str) -> list[Mutant]:
-    """Draw different mutants, each place of these layers as likely as any other."""
-    every: list[tuple[Path, bytes, Place]] = []
+def draw(count: int, seed: int, layers: list[str], part: str) -> dict[str, Mutant]:
+    """Draw different mutants by their names, each place of these layers as likely as any other.
+
+    Where a name comes in the draw depends on it and the seed alone, so that a change of the
+    package draws the mutants of what it changed anew, and no others.
+    """
+    every: list[tuple[str, Path, bytes, Place]] = []
     for layer in layers:
         for path in sorted((ROOT / "symdh" / layer).rglob("*.py")):
             if part in path.as_posix():
                 source = path.read_bytes()
                 module = path.relative_to(ROOT)
-                every += [(module, source, place) for place in places(ast.parse(source))]
-    random.Random(seed).shuffle(every)
-    made = (mutant(*each) for each in every)
-    return [each for each, _ in zip(filter(None, made), range(count), strict=False)]
+                named = names(module, source, seed)
+                every += [(name, module, source, place) for name, place in named]
+    every.sort(key=lambda each: each[0])
+    made = ((name, mutant(module, source, place)) for name, module, source, place in every)
+    found = ((name, each) for name, each in made if each)
+    return dict(islice(found, count))
 
 
-def is_killed(changed: Mutant) -> bool:
+def names(module: Path, source: bytes, seed: int) -> Iterator[tuple[str, Place]]:
+    """Name each place by its module, its statement and what stands there, not by its line."""
+    lines = source.splitlines()
+    met: Counter[str] = Counter()
+    for place in places(ast.parse(source)):
+        head = b" ".join(line.strip() for line in lines[place.first - 1 : place.last])
+        told = f"{seed} {module.as_posix()} {head!r} {ast.unparse(place.node)}"
+        met[told] += 1
+        yield hashlib.sha256(f"{told} {met[told]}".encode()).hexdigest(), place
+
+
+def is_killed(named: tuple[str, Mutant]) -> bool:
     """Run the tests of a mutant in a copy of the tree."""
+    name, changed = named
     reached = reached_lines()
     reaching, others = reached.tests(changed.module, changed.first, changed.last)
     first = up_to(FIRST, reaching, reached)
     others += [test for test in reaching if test not in first]
     rest = up_to(ALL, sorted(others, key=reached.seconds.__getitem__), reached)
-    killer = MUTATION / KILLERS / hashlib.sha256(changed.text).hexdigest()
+    killer = MUTATION / KILLERS / name
     before = json.loads(killer.read_text()) if killer.is_file() else []
     with tempfile.TemporaryDirectory() as folder:
         tree = Path(folder, "tree")
@@ -347,13 +366,14 @@ def main() -> int:
     parser.add_argument("--module", default="", help="part of a path")
     options = parser.parse_args()
     layers = options.layer or list(LAYERS)
-    drawn = draw(options.skip + options.count, options.seed, layers, options.module)
-    drawn = drawn[options.skip :]
+    every = draw(options.skip + options.count, options.seed, layers, options.module)
+    named = list(every.items())[options.skip :]
+    drawn = [each for _, each in named]
     unchanged = replace(drawn[0], text=(ROOT / drawn[0].module).read_bytes())
     reached_lines()  # once for all processes
     killed: Counter[str] = Counter()
     with get_context("fork").Pool(options.jobs, maxtasksperchild=1) as pool:
-        found = pool.imap(is_killed, [unchanged, *drawn])
+        found = pool.imap(is_killed, [("unchanged", unchanged), *named])
         if next(found):
             sys.exit(f"the tests of {unchanged.module} fail without any change")
         for each, dead in zip(drawn, found, strict=True):
