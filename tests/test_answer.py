@@ -536,6 +536,9 @@ def test_a_root_of_a_square_is_right_for_positive_lengths_only() -> None:
     assert "positive" in each.finding.note
 
 
+UPRIGHT = "theta1: 90 deg, theta2: 0, a1: 500, a2: 400"
+
+
 @pytest.mark.parametrize(
     ("table", "answers", "verdict", "told"),
     [
@@ -555,6 +558,10 @@ def test_a_root_of_a_square_is_right_for_positive_lengths_only() -> None:
         ("planar_2r", "numbers: {px: 536.54}", "WRONG", "off by a factor of 1000:"),
         ("planar_2r", "numbers: {px: 0.0053654}", "WRONG", "off by a factor of 100:"),
         ("planar_2r", "numbers: {px: 0.17885}", "WRONG", ""),
+        # What counts as near depends on the reach for lengths, and for nothing else.
+        ("planar_2r", f"numbers: {{at: {{{UPRIGHT}}}, px: 0.02}}", "COARSE", "near"),
+        ("planar_2r", f"numbers: {{at: {{{UPRIGHT}}}, 'pose[4,4]': 1.5}}", "WRONG", ""),
+        ("planar_2r", f"numbers: {{at: {{{UPRIGHT}}}, r11: 0.02}}", "WRONG", ""),
         ("planar_2r", "J[1,1]: 5*a1", "WRONG", ""),
         ("planar_2r", "T20[1,4]: 5*a1", "WRONG", ""),
         ("offsets", "pose[1,4]: 5*b", "WRONG", ""),

@@ -25,7 +25,7 @@ import symdh
 from symdh.codegen import TARGETS, GeneratedFile, Target, generate
 from symdh.codegen.graph import Graph
 from symdh.codegen.inverse import found as search
-from symdh.codegen.inverse.breaking import broken, broken_value
+from symdh.codegen.inverse.breaking import Layout, broken, broken_value
 from symdh.codegen.inverse.found import Missing
 from symdh.codegen.inverse.lowering import inverse_program
 from symdh.codegen.inverse.polynomials import Polynomials
@@ -542,6 +542,16 @@ def leaves(node: Any) -> set[Any]:
     if node.value is not None:
         return set() if node.op.name == "CONSTANT" else {node}
     return set().union(*(leaves(arg) for arg in node.args))
+
+
+def test_a_statement_is_broken_only_where_it_is_too_long() -> None:
+    value = "first + second + " + "x" * 75
+    assert len("    " + value + ";") == 97
+    for layout in (Layout(), Layout(more=" ...")):
+        assert broken(f"{value}yyy;", 1, layout) == f"    {value}yyy;"
+    assert broken(f"{value}yyyy;", 1) == f"    first + second\n        {value[15:]}yyyy;"
+    assert broken_value("x = ", value[:-2], 1, Layout(end=";")) == f"    x = {value[:-2]};"
+    assert broken_value("x = ", value, 1, Layout(end=";")) == f"    x = (\n        {value}\n    );"
 
 
 def test_long_statements_break_between_arguments_then_at_signs() -> None:

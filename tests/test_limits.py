@@ -190,7 +190,7 @@ LIMITS: dict[str, tuple[Reader, str, str, str]] = {
     "settings of CSV": (
         csv,
         lines(1),
-        "# title: a\n" * 51 + lines(1),
+        "# title: a\n" * 50 + lines(1),
         "more than 50 settings in comments",
     ),
     "joints of axes": (axes, mechanism(50), mechanism(51), "51 joints|over 50"),
@@ -228,6 +228,12 @@ def test_a_limit_is_named_where_it_is_passed(name: str) -> None:
     read, _, over, message = LIMITS[name]
     with pytest.raises(SymdhError, match=message):
         read(over)
+
+
+def test_settings_of_csv_up_to_the_limit_are_read() -> None:
+    """There are fewer keys than that, so what is wrong with so many is that they repeat."""
+    with pytest.raises(SymdhError, match="title is given twice"):
+        csv("# title: a\n" * 49 + lines(1))
 
 
 def filled(part: Callable[[int], str], join: str = "+", longest: int = 490) -> str:

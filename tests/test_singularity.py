@@ -336,6 +336,15 @@ def test_a_long_run_of_parallel_joints_is_read_as_single_functions() -> None:
     assert short_form(ring, runs, cosine - 3 * sine) == cos(whole) - 3 * sin(whole)
 
 
+def test_a_joint_that_turns_the_other_way_is_taken_off() -> None:
+    robot = symdh.loads(table_text("  - [q1, 0, a1, 0]\n  - [-q2, 0, a2, 0]\n"))
+    ring = TrigRing(robot)
+    q1, q2 = robot.variables
+    whole = ring.product(ring.cosine_and_sine(q1)[0], ring.cosine_and_sine(q1 - q2)[0])
+    assert len(whole) == 2
+    assert short_form(ring, parallel_runs(ring, robot), whole) == cos(q1) * cos(q1 - q2)
+
+
 def test_one_turning_joint_between_slides() -> None:
     """The slides are z_0 and z_2 = s_2 x_0 - c_2 z_0, in line where theta_2 is 0 or 180 deg.
 

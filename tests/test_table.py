@@ -201,6 +201,14 @@ def test_motions_as_one_text() -> None:
     )
 
 
+@pytest.mark.parametrize("written", ["Tx(a4) Rz(90 deg)", "Tx(a4)Rz(90 deg)", "Tx(a4) , Rz(pi/2)"])
+def test_motions_in_a_row_need_no_gap(written: str) -> None:
+    assert robot_of(HEAD + ROW + f'tool: "{written}"\n').tool == (
+        Motion(MotionKind.TRANSLATION, Axis.X, sym("a4")),
+        Motion(MotionKind.ROTATION, Axis.Z, pi / 2),
+    )
+
+
 def test_lengths_with_units_in_a_table_without() -> None:
     loaded = loads_table(rows("theta: q1, d: 300 mm, a: 0.2, alpha: 0"))
     assert loaded.robot.units.length is LengthUnit.METRE
@@ -556,6 +564,8 @@ def test_files_that_cannot_be_read(tmp_path: Path) -> None:
         with pytest.raises(ReadError, match=words) as caught:
             load_table(str(path))
         assert "\n" not in str(caught.value)
+    with pytest.raises(ReadError, match="name of a file to read is empty"):
+        load_table("")
     with pytest.raises(TableError, match=r"/dev/zero:1:1: file is over 1 MiB"):
         load_table("/dev/zero")
 
@@ -660,6 +670,13 @@ def test_schema_knows_the_words_of_the_reader() -> None:
     assert set(joint["type"]["enum"]) == set(TYPES)
     assert set(units["angle"]["enum"]) == set(ANGLE_UNITS)
     assert set(units["length"]["enum"]) == set(LENGTH_UNITS)
+
+
+def test_a_name_may_stand_in_what_could_not_be_read() -> None:
+    text = HEAD + ROW + "tool: [Tx(1), {Tx: h}]\nvalues: {h: 1}\n"
+    ((place, message),) = found_in(text)
+    assert place == "5:15"
+    assert "a motion such as Tx(a4)" in message
 
 
 def test_an_expression_that_measures_nothing_known_tells_of_angles_alone() -> None:
