@@ -63,7 +63,9 @@ def test_wrong_code_is_found_out(target: str) -> None:
     assert 100 < found.error < 500
 
 
-@pytest.mark.parametrize("target", ["python", "c", "cpp", "rust", "python-ext"])
+@pytest.mark.parametrize(
+    "target", ["python", "c", "cpp", "rust", "python-ext", "javascript", "matlab", "julia"]
+)
 @pytest.mark.parametrize("robot", [PLANAR, SCARA], ids=lambda r: r.name)
 def test_right_answers_are_right(robot: Robot, target: str) -> None:
     require_language(target)
