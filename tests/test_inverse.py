@@ -8,6 +8,7 @@ import os
 import random
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +36,7 @@ from inverse_checks import (
 )
 from oracle import Arm, read_arm
 from random_arms import parallel_arm, short_arm, wrist_arm
-from sympy import Expr, Float, Integer, Rational, Symbol, pi
+from sympy import Expr, Float, Integer, Rational, Symbol, pi, sin
 
 import symdh
 from symdh.derivation.inverse import Solved, inverse_document
@@ -55,11 +56,12 @@ from symdh.kinematics.inverse.ring import InverseRing
 from symdh.kinematics.inverse.roots import _roots, real_angles
 from symdh.kinematics.inverse.search import closed_form
 from symdh.kinematics.inverse.solution import ClosedForm, Rule, Tried
+from symdh.kinematics.inverse.structure import structure
 from symdh.kinematics.inverse.task import Kind
 from symdh.render.inverse_json import inverse_json
 from symdh.render.latex import render_latex
 from symdh.render.terminal import render_chapters
-from symdh.robot import Limits
+from symdh.robot import Convention, JointType, Limits
 from symdh.table import parse_expression
 from tools import require_tool
 
@@ -1050,6 +1052,35 @@ def test_the_planar_arm_follows_the_lecture() -> None:
     for line in route:
         assert line in text[place:], line
         place = text.index(line, place)
+
+
+@pytest.mark.parametrize("table", TABLES, ids=lambda path: path.stem)
+def test_the_structure_is_read_off_the_rows(table: Path) -> None:
+    """Axes of neighbours meet where there is a twist and no length between them."""
+    robot = symdh.load(table)
+    moving = [i for i, joint in enumerate(robot.joints) if joint.type is not JointType.FIXED]
+    between = 0 if robot.convention is Convention.STANDARD else 1
+
+    def turn(*rows: int) -> bool:
+        return all(robot.joints[i].type is JointType.REVOLUTE for i in rows) and (
+            list(rows) == list(range(rows[0], rows[-1] + 1))
+        )
+
+    def meet(row: int) -> bool:
+        joint = robot.joints[row + between]
+        return sin(joint.alpha) != 0 and joint.a.xreplace(dict(robot.values)) == 0
+
+    def spherical(rows: list[int]) -> tuple[int, ...] | None:
+        if len(rows) < 3 or not turn(*rows) or not all(map(meet, rows[:2])):
+            return None
+        level = robot.joints[rows[1]].d.xreplace(dict(robot.values)) == 0
+        return tuple(row + 1 for row in rows) if level else None
+
+    found = structure(robot)
+    pairs = [pair for pair in pairwise(moving) if turn(*pair) and meet(pair[0])]
+    assert found.crossing == tuple((a + 1, b + 1) for a, b in pairs)
+    assert found.wrist == spherical(moving[-3:])
+    assert found.shoulder == spherical(moving[:3])
 
 
 def test_the_structure_stands_at_the_start() -> None:

@@ -67,7 +67,7 @@ def named_parts(telling: Telling) -> list[Block]:
     place_now = before.index(step.part)
     base = before[place_now - 1] if place_now else None
     n = writer.form.arm.robot.n
-    source = Source(i, j, (), base=base if base is not None else (0, n))
+    source = Source(i, j, (), inverted=False, base=base if base is not None else (0, n))
     shown = _printed(writer.form)
     rows = [
         EntryStep(writer.expression(writer.form.ring.letters[k]), (writer.nested(e),), None)

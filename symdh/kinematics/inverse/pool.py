@@ -33,8 +33,8 @@ class Source:
     i: int
     j: int
     entries: tuple[tuple[int, int], ...]
-    inverted: bool = False
-    base: tuple[int, int] = (0, 0)
+    inverted: bool
+    base: tuple[int, int]
 
     @property
     def moved(self) -> int:
