@@ -466,6 +466,14 @@ def test_lines_stay_within_a_hundred_columns(robot: Robot, kind: str) -> None:
         assert max(map(len, file.text.splitlines())) <= 100
 
 
+def test_a_line_is_filled_up_to_a_hundred_columns() -> None:
+    full = "    f(" + "x" * 80 + ", " + "y" * 11 + ","
+    assert len(full) == 100
+    assert fold(full) == full
+    assert fold(f"{full} z);") == f"{full}\n            z);"
+    assert fold(f"    f({full[5:]} z);") == f"    f({full[5:-13]}\n            yyyyyyyyyyy, z);"
+
+
 def test_long_lines_are_broken_at_operators_and_commas() -> None:
     terms = [f"first{i} * second{i}" for i in range(12)]
     lines = fold("    const double x = " + " + ".join(terms) + ";").split("\n")
