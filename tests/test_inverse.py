@@ -8,7 +8,7 @@ import os
 import random
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from itertools import pairwise
+from itertools import combinations_with_replacement, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -36,7 +36,7 @@ from inverse_checks import (
 )
 from oracle import Arm, read_arm
 from random_arms import parallel_arm, short_arm, wrist_arm
-from sympy import Expr, Float, Integer, Rational, Symbol, pi, sin
+from sympy import Expr, Float, Integer, Rational, Symbol, cos, pi, sin
 
 import symdh
 from symdh.derivation.inverse import Solved, inverse_document
@@ -49,6 +49,7 @@ from symdh.kinematics.inverse.evaluate import Evaluator
 from symdh.kinematics.inverse.fallback import nominal
 from symdh.kinematics.inverse.goal import goal_of
 from symdh.kinematics.inverse.inverse import InverseKinematics, Method, inverse_kinematics
+from symdh.kinematics.inverse.point import Point
 from symdh.kinematics.inverse.pool import Combination, Pool
 from symdh.kinematics.inverse.posture import Part
 from symdh.kinematics.inverse.refine import refined
@@ -1081,6 +1082,34 @@ def test_the_structure_is_read_off_the_rows(table: Path) -> None:
     assert found.crossing == tuple((a + 1, b + 1) for a, b in pairs)
     assert found.wrist == spherical(moving[-3:])
     assert found.shoulder == spherical(moving[:3])
+
+
+def test_products_in_the_last_row_of_a_rotation_are_put_by_the_others() -> None:
+    form = derived(POSE)[0].form
+    assert form is not None
+    ring, point = form.ring, Point(form.ring, seed=3)
+    last = [ring.goal(name) for name in ("r_31", "r_32", "r_33")]
+    for a, b in combinations_with_replacement(last, 2):
+        other = ring.orthonormal(ring.gens[0] * a * b + a)
+        assert point.value(other) == point.value(ring.gens[0] * a * b + a)
+        assert all(sum(powers[ring.gens.index(x)] for x in last) <= 1 for powers in other)
+
+
+@pytest.mark.parametrize(("twist", "doublings"), [("11.25 deg", 4), ("2.8125 deg", 6)])
+def test_a_part_of_a_turn_is_exact_at_a_point(twist: str, doublings: int) -> None:
+    """The angle doubled again and again is 180 degrees, by cos 2x = 2 cos^2 x - 1."""
+    rows = "".join(
+        f"  - {{theta: q{i}, d: {i}, a: {i}, alpha: {angle}}}\n"
+        for i, angle in enumerate((twist, twist, "0"), start=1)
+    )
+    form = inverse_kinematics(symdh.loads(ROOT.partition("  -")[0] + rows)).form
+    assert form is not None
+    ring, point = form.ring, Point(form.ring, seed=3)
+    (angle,) = ring.constants
+    cosine = point.values[ring.place[cos(angle)]]
+    for _ in range(doublings):
+        cosine = (2 * cosine * cosine - 1) % point.prime
+    assert cosine == point.prime - 1
 
 
 def test_the_structure_stands_at_the_start() -> None:

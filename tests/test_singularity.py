@@ -100,6 +100,15 @@ def test_the_rank_drops_where_a_factor_vanishes(table: Path) -> None:
 
 
 @each_table
+def test_plus_prevails_in_a_factor(table: Path) -> None:
+    for factor in found_for(table).factors or ():
+        terms = factor.expression.as_ordered_terms()
+        minus = sum(term.could_extract_minus_sign() for term in terms)
+        assert 2 * minus <= len(terms), factor
+        assert 2 * minus < len(terms) or not terms[0].could_extract_minus_sign(), factor
+
+
+@each_table
 def test_the_rank_drops_where_all_of_a_remaining_set_vanish(table: Path) -> None:
     robot, arm, found = load(table), arm_of(table), found_for(table)
     for conditions in found.remaining:
