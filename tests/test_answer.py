@@ -549,6 +549,8 @@ UPRIGHT = "theta1: 90 deg, theta2: 0, a1: 500, a2: 400"
         # As often wrong as right: for half of the turns of joint 1.
         ("planar_2r", "A1[2,1]: abs(s1)", "WRONG", ""),
         ("planar_2r", "A1[2,1]: sqrt(1 - c1**2)", "WRONG", ""),
+        # Imaginary for lengths, which are positive at the first points.
+        ("planar_2r", "A1[2,1]: sqrt(-a1)", "WRONG", ""),
         ("planar_2r", "A1[1,1]: c1*(cos(65*theta1)**2 + sin(65*theta1)**2)", "RIGHT", "50 digits"),
         ("planar_2r", "A1[1,1]: (abs(a1)*c1 + abs(a2)*c1)/(abs(a1) + abs(a2))", "RIGHT", ""),
         ("planar_2r", "numbers: {'A1[1,1]': 0.866}", "RIGHT", ""),
