@@ -451,6 +451,8 @@ IDENTITIES = [
     (sp.sqrt(X**2 + Y * (Y + 2 * X)) ** 3, sp.sqrt(X**2 + 2 * X * Y + Y**2) * (X + Y) ** 2),
     (1 / (X + Y) - 1 / (X - Y), -2 * Y / (X**2 - Y**2)),
     (sp.sqrt(2) * sp.sqrt(3) * X, sp.sqrt(6) * X),
+    ((sp.sqrt(2) + sp.sqrt(3)) ** 2 * X, (5 + 2 * sp.sqrt(2) * sp.sqrt(3)) * X),
+    ((sp.sqrt(5) * X + sp.sqrt(7)) * (sp.sqrt(5) * X - sp.sqrt(7)), 5 * X**2 - 7),
     (sp.atan2(Y * 2, X + X), sp.atan2(Y + Y, 2 * X)),
     (sp.cos(ODD + X), sp.cos(ODD) * sp.cos(X) - sp.sin(ODD) * sp.sin(X)),
 ]  # fmt: skip
