@@ -90,6 +90,7 @@ def error_of(text: str, dimension: Dimension | None = ANGLE, units: Units = SILE
         ("acos(L1)", acos(L1)),
         ("atan(1)", pi / 4),
         ("atan2(1, -1)", 3 * pi / 4),
+        ("((2^32)^4)^(3/2)", Integer(2) ** 192),
         ("atan2(0, -1)", pi),
         ("atan2(-1, 0)", -pi / 2),
         ("atan2(L1, L2)", atan2(L1, L2)),
