@@ -14,7 +14,23 @@ import numpy as np
 import pytest
 from conftest import Runner
 from oracle import Arm
-from sympy import Add, Expr, Float, Integer, Rational, Symbol, cos, lambdify, pi, sin, symbols
+from sympy import (
+    Add,
+    Expr,
+    Float,
+    Integer,
+    Matrix,
+    Rational,
+    Symbol,
+    cos,
+    lambdify,
+    pi,
+    sin,
+    sqrt,
+    symbols,
+    sympify,
+    tan,
+)
 from test_velocity import (
     TABLES,
     arm_of,
@@ -365,6 +381,28 @@ def test_one_turning_joint_between_slides() -> None:
     assert abs(found.product) == abs(sin(Symbol("q2", real=True)))
     assert set(factor.zeros) == {0, pi}
     assert factor.meaning is None
+
+
+@pytest.mark.parametrize(
+    "at", [(Symbol("b", real=True), Symbol("a", real=True), 0), (pi, tan(pi / 12), sqrt(2))]
+)
+def test_a_point_may_have_lengths_that_the_table_has_not(at: tuple[Expr, Expr, Expr]) -> None:
+    q1, q2, a1, a2 = (Symbol(name, real=True) for name in ("q1", "q2", "a1", "a2"))
+    robot = symdh.loads(table_text("  - [q1, 0, a1, 0]\n  - [q2, 0, a2, 0]\n"))
+    found = singularities(robot, at=[sympify(x) for x in at])
+    x, y = at[0] + a2, at[1]
+    hand = Matrix(
+        [
+            a1 * cos(q1) + x * cos(q1 + q2) - y * sin(q1 + q2),
+            a1 * sin(q1) + x * sin(q1 + q2) + y * cos(q1 + q2),
+        ]
+    )
+    determinant = hand.jacobian([q1, q2]).det()
+    for numbers in ((0.3, 0.8, 1.1, 0.7), (-2.1, 0.4, 0.6, 0.9)):
+        known = dict(zip((q1, q2, a1, a2), numbers, strict=True))
+        known |= {Symbol("a", real=True): 0.35, Symbol("b", real=True): -0.2}
+        wanted = abs(determinant.subs(known).evalf())
+        assert abs(abs(found.product.subs(known).evalf()) - wanted) < 1e-12
 
 
 def test_lengths_may_be_sums_and_powers() -> None:

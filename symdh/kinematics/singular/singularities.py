@@ -159,8 +159,8 @@ def singularities(
             f"frame {end} of {robot.name} is moved by {len(joints)} joints, and singularities are "
             f"looked for with at most {MAX_JOINTS}; --of chooses a frame nearer to the base"
         )
-    search = _Search(robot, end, joints)
-    matrix, rows = search.matrix(at)
+    search = _Search(robot, end, joints, at)
+    matrix, rows = search.matrix()
     rank = search.rank(matrix, rows)
     base = Singularities(
         *(robot, end, tuple(joints), rows, matrix.frame, matrix.point, rank),
@@ -175,20 +175,22 @@ def singularities(
 class _Search:
     """The rings of one robot and what is computed in them."""
 
-    def __init__(self, robot: Robot, of: Frame, joints: list[int]) -> None:
+    def __init__(
+        self, robot: Robot, of: Frame, joints: list[int], at: Sequence[Expr] | None
+    ) -> None:
         self._robot = robot
         self._of = of
+        self._point = ORIGIN if at is None else at
         self._joints = joints
-        self._ring = TrigRing(robot)
+        self._ring = TrigRing(robot, self._point)
         self._half_angles = HalfAngles(self._ring)
         self._runs = parallel_runs(self._ring, robot)
         self._meanings = Meanings(self._half_angles, robot, joints)
 
-    def matrix(self, at: Sequence[Expr] | None) -> tuple[ScrewMatrix, tuple[int, ...]]:
+    def matrix(self) -> tuple[ScrewMatrix, tuple[int, ...]]:
         """Return the Jacobian and the rows of it that say what the arm is singular for."""
         if len(self._joints) <= 3:
-            point = ORIGIN if at is None else at
-            own = sparsest(self._ring, self._robot, self._of, point)
+            own = sparsest(self._ring, self._robot, self._of, self._point)
             rows = _rows(own, range(3))
             if rows and self.rank(own, rows) == len(self._joints):
                 return own, rows

@@ -45,6 +45,12 @@ class TooLargeError(Exception):
 class TrigRing:
     """The ring of one robot.
 
+    Parameters
+    ----------
+    robot : Robot
+    more : iterable of Expr
+        Lengths that are not in the robot's table.
+
     Attributes
     ----------
     angles : tuple of Expr
@@ -54,7 +60,7 @@ class TrigRing:
         The expressions that the other generators stand for.
     """
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot, more: Iterable[Expr] = ()) -> None:
         motions = list(_motions(robot))
         self._turning = {
             j.variable: j for j in robot.joints if j.type is JointType.REVOLUTE and j.variable
@@ -64,7 +70,7 @@ class TrigRing:
         constants = [self._parted(part)[1] for part in parts]
         found |= dict.fromkeys(_without_sign(c)[0] for c in constants if _is_opaque_angle(c))
         self.angles: tuple[Expr, ...] = tuple(found)
-        plain = [m.amount for m in motions if m.kind is MotionKind.TRANSLATION]
+        plain = [*more, *(m.amount for m in motions if m.kind is MotionKind.TRANSLATION)]
         for constant in constants:
             if not _is_opaque_angle(constant):
                 plain += [cos(constant), sin(constant)]
