@@ -7,7 +7,22 @@ from pathlib import Path
 
 import pytest
 from conftest import Runner
-from sympy import Expr, Float, Integer, Rational, Symbol, atan, cos, nan, pi, sin, sqrt, zoo
+from sympy import (
+    Expr,
+    Float,
+    Integer,
+    Rational,
+    Symbol,
+    atan,
+    atan2,
+    cos,
+    nan,
+    pi,
+    sin,
+    sqrt,
+    tan,
+    zoo,
+)
 
 from symdh.errors import TableError, UnsupportedError
 from symdh.table import loads_table, with_values
@@ -17,6 +32,7 @@ from symdh.table.source import from_text
 
 A, B, Q = (Symbol(name, real=True) for name in "abq")
 HALF = Rational(1, 2)
+TINY = Rational(1, 10**30)
 
 
 @pytest.mark.parametrize(
@@ -30,6 +46,9 @@ HALF = Rational(1, 2)
         (1 / A, {A: Float(4)}, Float(0.25)),
         (A**-32, {A: Integer(10)}, Rational(1, 10**32)),
         (cos(A) ** 2 - A, {A: Integer(0)}, Integer(1)),
+        # What is small on the way is not nothing.
+        (atan2(1, A), {A: tan(TINY)}, atan2(1, tan(TINY))),
+        (A / TINY, {A: sin(TINY)}, sin(TINY) / TINY),
         (sqrt(cos(A) ** 2 + sin(A) ** 2 - 1), {A: HALF}, sqrt(cos(HALF) ** 2 + sin(HALF) ** 2 - 1)),
     ],
 )

@@ -41,6 +41,7 @@ from symdh.notation.nodes import (
     Unit,
 )
 from symdh.notation.numbers import figures
+from symdh.table.amounts import digits_of
 
 R = Generic("R")
 
@@ -202,5 +203,5 @@ def _point(
 
 
 def _float(number: Expr) -> float:
-    value = number.evalf(30, chop=True)
+    value = digits_of(number, 30)
     return 0.0 if abs(value) < Integer(10) ** -25 else float(value)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from sympy import Expr, Integer, Symbol
+from sympy import Expr, Integer, Pow, Symbol
 
 from symdh.errors import UnsupportedError
 from symdh.robot import Robot
@@ -41,18 +41,35 @@ def with_values(amount: Expr, known: Mapping[Symbol, Expr]) -> Expr:
         )
     found = amount.xreplace(dict(known))
     # Of sqrt(sin(x)^2 + cos(x)^2 - 1) the digits alone tell that it is real.
-    number = found if found.free_symbols else found.evalf(15, chop=True)
-    if found.has(*NOT_FINITE) or number.has(*NOT_FINITE):
+    number = found if found.free_symbols else digits_of(found, 15)
+    too_large = number.is_number and number.is_finite and abs(number) > MAX_VALUE
+    infinite = found.has(*NOT_FINITE) or number.has(*NOT_FINITE)
+    if infinite or (too_large and _divides_by_nothing(found)):
         raise UnsupportedError(f"these values make {amount} infinite: a division by zero")
     if number.is_real is False:
         raise UnsupportedError(
             f"these values make {amount} equal to {found}, which is not a real number"
         )
-    if number.is_number and abs(number) > MAX_VALUE:
+    if too_large:
         raise UnsupportedError(
             f"these values make {amount} equal to {number.evalf(3)!s}, over the limit of 1e77"
         )
     return found
+
+
+def digits_of(number: Expr, count: int) -> Expr:
+    """Return a number in digits, without an imaginary part that rounding has left.
+
+    Chopped is the result alone: on the way it would make nothing of ``tan(1e-30)``, and something
+    infinite of 1 divided by it.
+    """
+    return number.evalf(count).evalf(count, chop=True)
+
+
+def _divides_by_nothing(amount: Expr) -> bool:
+    """Say whether something is divided by what is zero, but for sympy to see it."""
+    powers = amount.atoms(Pow)
+    return any(p.exp.is_negative and not digits_of(p.base, 15) for p in powers)
 
 
 def check_settings(robot: Robot, settings: Mapping[Symbol, Expr]) -> None:

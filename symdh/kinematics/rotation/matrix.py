@@ -10,6 +10,7 @@ from sympy import Expr, Float, ImmutableMatrix, Rational, prime
 
 from symdh.errors import UnsupportedError
 from symdh.robot import in_name_order
+from symdh.table.amounts import digits_of
 
 Row = tuple[float, float, float]
 Rotation = tuple[Row, Row, Row]
@@ -86,7 +87,7 @@ def numbers_of(matrix: ImmutableMatrix) -> list[list[float]]:
     """
     rows = []
     for r in range(3):
-        row = [matrix[r, c].evalf(_DIGITS, chop=True) for c in range(3)]
+        row = [digits_of(matrix[r, c], _DIGITS) for c in range(3)]
         for entry in row:
             if not (entry.is_Float or entry.is_Rational):
                 raise UnsupportedError(f"an entry of the matrix is {entry}, not a real number")
