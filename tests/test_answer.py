@@ -708,6 +708,7 @@ MISTAKES = {
     "A1: [[c1, -s1, 0, a1*c3]]": (1, 5, "A1 has 4 rows of 4"),
     "px: a1*c3": (1, 8, "did you mean c2?"),
     "px: a3*c1": (1, 5, "did you mean a2?"),
+    "px: 'a1*c_{1} + a2*c_{12} + a3'": (1, 28, "did you mean a2?"),
     "A3: 1": (1, 1, "there is no A3"),
     "T03: 1": (1, 1, "there is no frame 3"),
     "A1[5,1]: 1": (1, 1, "4 rows and 4 columns"),
