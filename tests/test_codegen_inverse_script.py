@@ -27,6 +27,7 @@ from sympy import Symbol
 
 import symdh
 from symdh.codegen import GeneratedFile, generate
+from symdh.codegen.inverse.script import filled
 from symdh.robot import Robot
 from tools import find_tool, new_folder, require_tool
 
@@ -132,6 +133,12 @@ def planar_pose(q1: float, q2: float) -> np.ndarray:
         0.5 * math.sin(q1) + 0.3 * math.sin(q1 + q2),
     )
     return pose
+
+
+def test_a_comment_is_broken_between_words_alone() -> None:
+    text = "word " * 18 + "left-handed " + "x" * 120 + " end"
+    lines = filled(text, "# ", "#   ").splitlines()
+    assert lines == ["# " + "word " * 17 + "word", "#   left-handed", "#   " + "x" * 120, "#   end"]
 
 
 # ------------------------------------------------------------------------------- random poses

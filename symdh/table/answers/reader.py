@@ -164,25 +164,23 @@ class _Reader:
             return Entry(row, column, None, "", text.place())
         plain = replace(text, text=_without_braces(text.text))
         cell = self._cells.read(plain, dimension, unit)
-        if cell is None or not self._understood(cell):
+        if cell is None:
             return None
+        self._note_unknown(cell)
         meanings = {s: m for s in cell.names if (m := self._meant(s)) is not None}
         return Entry(row, column, cell.value.xreplace(meanings), text.text.strip(), cell.place)
 
     def _meant(self, symbol: Symbol) -> Expr | None:
         return None if symbol in self._known else self._meaning(symbol.name)
 
-    def _understood(self, cell: Cell) -> bool:
+    def _note_unknown(self, cell: Cell) -> None:
         """Note every name that neither stands in the table nor is a short form."""
-        complete = True
         for symbol, place in cell.names.items():
             if symbol not in self._known and self._meant(symbol) is None:
                 known = [*self._meaning.names, *sorted(s.name for s in self._known)]
                 hint = did_you_mean_symbol(symbol.name, known)
                 message = f"{brief(symbol.name)} is neither in the table nor a short form of it"
                 self._report.error(place, message + hint)
-                complete = False
-        return complete
 
     def rows(self, columns: Node | None, rows: Node | None) -> tuple[RowClaim, ...]:
         """Read rows of a table, as mappings or as lists in the order of the columns."""
