@@ -58,7 +58,7 @@ from symdh.kinematics.inverse.roots import _roots, real_angles
 from symdh.kinematics.inverse.search import closed_form
 from symdh.kinematics.inverse.solution import ClosedForm, Rule, Tried
 from symdh.kinematics.inverse.structure import structure
-from symdh.kinematics.inverse.task import Kind
+from symdh.kinematics.inverse.task import InverseTask, Kind, inverse_task
 from symdh.render.inverse_json import inverse_json
 from symdh.render.latex import render_latex
 from symdh.render.terminal import render_chapters
@@ -806,6 +806,26 @@ joints:
 
 
 PLANE, POSE = DATA / "tables" / "planar_3r.yaml", DATA / "tables" / "puma560.yaml"
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "axes", "reachable_only"),
+    [
+        ("puma560", Kind.POSE, (0, 1, 2), False),
+        ("minimover_5r", Kind.POSE, (0, 1, 2), True),
+        ("scara_rrpr", Kind.POSE, (0, 1, 2), True),
+        ("elbow_3r", Kind.POSITION, (0, 1, 2), False),
+        ("planar_3r", Kind.PLANAR, (0, 1), False),
+        ("planar_2r", Kind.POSITION, (0, 1), False),
+        ("zyz_wrist", Kind.ORIENTATION, (), False),
+    ],
+)
+def test_what_is_asked_of_an_arm(
+    name: str, kind: Kind, axes: tuple[int, ...], reachable_only: bool
+) -> None:
+    robot = symdh.load(DATA / "tables" / f"{name}.yaml")
+    expected = InverseTask(kind, axes, reachable_only)
+    assert inverse_task(robot, len(robot.variables)) == expected
 
 
 def test_a_goal_is_a_pose_or_the_coordinates_of_the_task() -> None:
