@@ -68,7 +68,7 @@ def _value(e: Expr, point: Point) -> float:
         found = _value(e.base, point) ** _value(e.exp, point)
         return found if isinstance(found, float) else math.nan
     function = _FUNCTIONS.get(type(e))
-    if function is None:  # the imaginary unit, for one, of sqrt(-a1**2)
+    if function is None:  # the imaginary unit, for one, of sqrt(-a1) for a positive a1
         found = e.xreplace({s: Float(point[s]) for s in e.free_symbols}).evalf()
         return float(found) if found.is_real else math.nan
     return function(*(_value(part, point) for part in e.args))

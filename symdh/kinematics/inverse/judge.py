@@ -160,11 +160,10 @@ class Judge:
 
     def distance(self, a: Sequence[float], b: Sequence[float], without: int | None = None) -> float:
         """Return how far apart joint values are, slides as parts of the reach."""
-        apart = (self.wrapped(place, x - y) for place, (x, y) in enumerate(zip(a, b, strict=True)))
         return hypot(
             *(
-                each if self.turning[place] else each / self.chain.reach
-                for place, each in enumerate(apart)
+                self.wrapped(place, x - y) / (1.0 if self.turning[place] else self.chain.reach)
+                for place, (x, y) in enumerate(zip(a, b, strict=True))
                 if place != without
             )
         )
