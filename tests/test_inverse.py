@@ -867,7 +867,7 @@ def test_the_farthest_goal_is_out_of_reach_and_farther_ones_are_refused(name: st
             solver.solve([[1, 0, 0, 0], [0, 1, 0, length], [0, 0, 1, 0]])
 
 
-@pytest.mark.parametrize("name", ["planar_2r", "puma560", "pieper_generic"])
+@pytest.mark.parametrize("name", ["planar_2r", "puma560", "pieper_generic", "spherical_rrp"])
 @pytest.mark.parametrize("scale", [Rational(1, 10**9), Integer(10) ** 6])
 def test_an_arm_of_any_size_has_the_same_answers(name: str, scale: Expr) -> None:
     robot = symdh.load(DATA / "tables" / f"{name}.yaml")
@@ -876,10 +876,12 @@ def test_an_arm_of_any_size_has_the_same_answers(name: str, scale: Expr) -> None
     found = [inverse_kinematics(each) for each in (robot, replace(robot, values=lengths))]
     assert found[0].task == found[1].task
     assert found[0].structure == found[1].structure
-    q = [0.3, 0.7, -0.4, 0.5, 0.9, -0.8][: len(robot.variables)]
+    slides = {joint.variable for joint in robot.joints if joint.type is JointType.PRISMATIC}
+    units = [float(scale) if variable in slides else 1.0 for variable in robot.variables]
+    q = np.array([0.3, 0.7, -0.4, 0.5, 0.9, -0.8][: len(units)])
     plain, scaled = (
-        [answer.q for answer in solver.solve(solver.judge.chain.pose(q))]
-        for solver in (each.solver() for each in found)
+        [np.array(answer.q) / unit for answer in solver.solve(solver.judge.chain.pose(q * unit))]
+        for solver, unit in ((found[0].solver(), 1.0), (found[1].solver(), units))
     )
     assert len(plain) == len(scaled) > 1
     np.testing.assert_allclose(plain, scaled, atol=1e-9)

@@ -13,7 +13,7 @@ from symdh.errors import UnsupportedError
 from symdh.kinematics.inverse.numeric_chain import NumericChain
 from symdh.kinematics.inverse.refine import Goal, refined, task_error
 from symdh.kinematics.inverse.task import InverseTask
-from symdh.robot import JointType, Robot
+from symdh.robot import Robot
 
 #: An answer may miss the goal by so much of the arm's reach.
 TOLERANCE = 1e-9
@@ -82,7 +82,7 @@ class Judge:
         for length in (self.chain.reach, *held.values()):
             _refuse_over_limit("lengths and locked joints", length)
         self.held = {robot.variables.index(variable): x for variable, x in held.items()}
-        self.turning = [_turns(robot, variable) for variable in robot.variables]
+        self.turning = self.chain.turning
         self.free_places = [k for k in range(len(robot.variables)) if k not in self.held]
         self._limits = _limits(robot, {**robot.values, **values})
 
@@ -141,15 +141,7 @@ class Judge:
 
     def random_values(self, drawn: random.Random) -> list[float]:
         """Draw joint values; locked joints keep theirs."""
-        reach = self.chain.reach
-        return [
-            self.held[k]
-            if k in self.held
-            else drawn.uniform(-pi, pi)
-            if turns
-            else reach * drawn.uniform(-1, 1)
-            for k, turns in enumerate(self.turning)
-        ]
+        return [self.held.get(k, x) for k, x in enumerate(self.chain.random_values(drawn))]
 
     def wrapped(self, place: int, value: float) -> float:
         """Return an angle in (-pi, pi], a slide as it is."""
@@ -173,12 +165,6 @@ class Judge:
             low - _SAME <= value <= high + _SAME
             for value, (low, high) in zip(q, self._limits, strict=True)
         )
-
-
-def _turns(robot: Robot, variable: Symbol) -> bool:
-    return any(
-        joint.variable == variable and joint.type is JointType.REVOLUTE for joint in robot.joints
-    )
 
 
 def _limits(robot: Robot, known: Mapping[Symbol, Expr]) -> list[tuple[float, float]]:

@@ -9,6 +9,7 @@ from sympy import Expr, Float, Function, Pow, Symbol
 from symdh.errors import UnsupportedError
 from symdh.kinematics.chain import chain_word
 from symdh.kinematics.frame import first_frame, last_frame
+from symdh.kinematics.inverse.numeric_chain import NumericChain
 from symdh.robot import Robot
 from symdh.table import with_values
 from symdh.table.quantity import NOT_FINITE
@@ -55,6 +56,12 @@ def drawn_lengths(
             return numbers
     with_values(unreal[0], values)
     raise UnsupportedError(f"no numbers were found that make {unreal[0]} a real number")
+
+
+def random_chain(robot: Robot) -> NumericChain:
+    """Return the chain of a robot, with random numbers for parameters that have no value."""
+    numbers = drawn_lengths(robot, random.Random(11), 0.3, 1.5)
+    return NumericChain.of(robot, {symbol.name: number for symbol, number in numbers.items()})
 
 
 def _is_real(amount: Expr) -> bool:

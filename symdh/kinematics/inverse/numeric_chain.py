@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import cos, sin
+from functools import cached_property
+from math import cos, pi, sin
 
 from sympy import Expr, Float
 
@@ -82,6 +84,19 @@ class NumericChain:
             reach += 0.0 if turns else abs(value)
             parts.append(_Part(turns, int(motion.axis), variable, factor, value))
         return cls(tuple(parts), reach or 1.0, len(places))
+
+    @cached_property
+    def turning(self) -> tuple[bool, ...]:
+        """Which joint variables are angles; the others are lengths."""
+        turns = {part.variable: part.turns for part in self.parts}
+        return tuple(turns[k] for k in range(self.variables))
+
+    def random_values(self, drawn: random.Random) -> list[float]:
+        """Draw joint values: angles in a whole turn, slides up to the reach either way."""
+        return [
+            drawn.uniform(-pi, pi) if turns else self.reach * drawn.uniform(-1, 1)
+            for turns in self.turning
+        ]
 
     def pose(self, q: Sequence[float]) -> FloatMatrix:
         """Return the pose of the last frame, 3 rows of 4."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from dataclasses import dataclass
 
+from symdh.kinematics.inverse.lengths import random_chain
 from symdh.kinematics.inverse.lines import Line, are_parallel, joint_lines, meet, meet_in_one_point
 from symdh.robot import JointType, Robot
 
@@ -31,8 +32,8 @@ class Structure:
 
 def structure(robot: Robot) -> Structure:
     """Find the structure of an arm, at two random poses."""
-    drawn = random.Random(17)
-    poses = [joint_lines(robot, [drawn.uniform(-3, 3) for _ in robot.variables]) for _ in range(2)]
+    chain, drawn = random_chain(robot), random.Random(17)
+    poses = [joint_lines(robot, chain.random_values(drawn)) for _ in range(2)]
     last = [lines[-3:] for lines in poses]
     first = [lines[:3] for lines in poses]
     return Structure(

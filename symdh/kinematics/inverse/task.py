@@ -11,9 +11,8 @@ from enum import Enum
 from sympy import Symbol
 
 from symdh.errors import UnsupportedError
-from symdh.kinematics.inverse.lengths import drawn_lengths
+from symdh.kinematics.inverse.lengths import random_chain
 from symdh.kinematics.inverse.lines import Line, joint_lines
-from symdh.kinematics.inverse.numeric_chain import NumericChain
 from symdh.kinematics.inverse.ring import ROTATION_NAMES, U_NAMES
 from symdh.robot import JointType, Robot
 
@@ -105,7 +104,7 @@ def inverse_task(robot: Robot, freedoms: int, text: str | None = None) -> Invers
         return _named(text, freedoms)
     if freedoms >= 6:
         return InverseTask(Kind.POSE, (0, 1, 2), False)
-    lines = joint_lines(robot, _random_values(robot, 5))
+    lines = joint_lines(robot, random_chain(robot).random_values(random.Random(5)))
     axes = moved_coordinates(robot)
     if not axes:
         return InverseTask(Kind.ORIENTATION, (), freedoms < 3)
@@ -146,8 +145,8 @@ def _named(text: str, freedoms: int) -> InverseTask:
 
 def moved_coordinates(robot: Robot) -> tuple[int, ...]:
     """Return which coordinates of the hand change when the joints move."""
-    chain = NumericChain.of(robot, _random_lengths(robot))
-    poses = [chain.pose(q) for q in _samples(robot)]
+    chain, drawn = random_chain(robot), random.Random(7)
+    poses = [chain.pose(chain.random_values(drawn)) for _ in range(4)]
     moved = []
     for axis in range(3):
         column = [pose[axis][3] for pose in poses]
@@ -173,9 +172,12 @@ def _places(robot: Robot, rank: int) -> bool:
 
 def _rank(robot: Robot, rows: Sequence[int], columns: Sequence[int]) -> int:
     """Return the rank of a part of the Jacobian at random joint values, lengths in reaches."""
-    chain = NumericChain.of(robot, _random_lengths(robot))
-    slope = chain.jacobian(_random_values(robot, 6))
-    left = [[slope[r][c] / (chain.reach if r < 3 else 1.0) for c in columns] for r in rows]
+    chain = random_chain(robot)
+    slope = chain.jacobian(chain.random_values(random.Random(6)))
+    unit = [1.0 if turns else chain.reach for turns in chain.turning]
+    left = [
+        [slope[r][c] * unit[c] / (chain.reach if r < 3 else 1.0) for c in columns] for r in rows
+    ]
     rank = 0
     while left and columns:
         size, r, c = max((abs(x), r, c) for r, row in enumerate(left) for c, x in enumerate(row))
@@ -187,21 +189,6 @@ def _rank(robot: Robot, rows: Sequence[int], columns: Sequence[int]) -> int:
         ]
         rank += 1
     return rank
-
-
-def _samples(robot: Robot) -> list[list[float]]:
-    drawn = random.Random(7)
-    return [[drawn.uniform(-3, 3) for _ in robot.variables] for _ in range(4)]
-
-
-def _random_values(robot: Robot, seed: int) -> list[float]:
-    drawn = random.Random(seed)
-    return [drawn.uniform(-3, 3) for _ in robot.variables]
-
-
-def _random_lengths(robot: Robot) -> dict[str, float]:
-    numbers = drawn_lengths(robot, random.Random(11), 0.3, 1.5)
-    return {symbol.name: number for symbol, number in numbers.items()}
 
 
 def _parallel(lines: Sequence[Line]) -> bool:
